@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Maps a recording and says where the report is, on a bare Debian 12 too.
-#   ./run_demo.sh [FOLDER|BAG...]   folders as KITTI or EuRoC have them, or bags with a stereo pair
+# Maps a recording and prints the path of the report; runs on a bare Debian 12 too.
+#   ./run_demo.sh [FOLDER|BAG...]   folders of KITTI or EuRoC, or bags with a stereo pair
 # Without an argument: 60 s of a simulated robot in a college quad, with stereo, panoramas and lasers, mapped in parts of 20 s as
-# they come; what was simulated stays in build/demo for the next time. The results go to out/demo.
+# they come; the bags stay in build/demo for the next run. The results go to out/demo.
 set -eu
 # shellcheck source=scripts/lib.sh
 . "$(dirname "$(readlink -f "$0")")/scripts/lib.sh"
@@ -13,12 +13,12 @@ for input; do [ -e "$input" ] || { say "run_demo.sh: $input: no such file or fol
 
 out=$root/out/demo seconds=60 part=20
 
-map_inputs() { "$program" map "$@" --out "$out" --overwrite >/dev/null; }  # its results are named at the end
+map_inputs() { "$program" map "$@" --out "$out" --overwrite >/dev/null; }  # results are listed at the end
 
-# is_simulated FOLDER: the whole session, by the simulator as it is now?
+# is_simulated FOLDER: true if it has the complete session of the current simulator.
 is_simulated() { [ "$1/quad_$((seconds / part - 1)).bag" -nt "$ws/devel/lib/liburban_nav_sim.so" ]; }
 
-# wait_for FILE LOG: shows how far the simulator is until it has written the file.
+# wait_for FILE LOG: prints the progress of the simulator until it has written the file.
 wait_for() {
   local shown line
   shown=$(grep '^simulate' "$2" | tail -n 1)
@@ -31,7 +31,7 @@ wait_for() {
   done
 }
 
-# Each part is mapped with those before it.
+# Each part is mapped together with the previous ones.
 map_while_simulating() {
   local folder=$1 log=$1/simulate.log parts=() bag n
   rm -rf "$folder"
@@ -49,14 +49,14 @@ map_while_simulating() {
     if [ $n = $((seconds / part)) ]; then break; fi
     map_inputs "${parts[@]}" --so-far "$(awk "BEGIN { print $n * $part / $seconds }")" 2>"$folder/map.log" ||
       { cat "$folder/map.log" >&2; die "the first part could not be mapped"; }
-    if [ $n = 1 ]; then say "The first picture is there, and grows with the session: $out/report.html"; fi
+    if [ $n = 1 ]; then say "The first report is ready and is updated with each part: $out/report.html"; fi
   done
   wait $simulator || { tail "$log" >&2; die "the session could not be simulated"; }
   trap - EXIT INT TERM
   map_inputs "${parts[@]}" --so-far 1
 }
 
-say "[1/2] The command and what it needs"
+say "[1/2] Building the command and its dependencies"
 if ! command_is_current; then build_command; fi
 rm -rf "$out"
 mkdir -p "$out"

@@ -212,6 +212,7 @@ if [ $sanitize = no ]; then
   seconds=${URBAN_NAV_FUZZ_SECONDS:-2}
   step "lint" run_lint || true
   if anything_selected && step "build" build_all; then
+    step "commands of the documents" scripts/document_commands.py --program "$program" || true
     step "hardening of programs and libraries" scripts/check_binaries.py "$ws/devel" || true
     step "gtest" run_group "$ws" gtest
     step "readers under the sanitizers, $seconds s of fuzzing each" run_group "$ws" sanitized "$seconds"

@@ -101,7 +101,7 @@ class Rules(unittest.TestCase):
                    {f"src__urban_nav__src__{low}__a_cpp": f'#include "{high}/b.hpp"\n'})
 
     def test_words_and_names(self):
-        self.check(lint.long_readmes, {"p__README_md": "word " * 2500}, {"p__README_md": "word " * 2501})
+        self.check(lint.long_readmes, {"p__README_md": "word " * 1200}, {"p__README_md": "word " * 1201})
         self.check(lint.ros_spelling, {"launch__localization_launch": ""}, {"launch__localise_launch": ""})
         many = "".join(f"int x{chr(97 + i)}Of() {{ return 0; }}\n" for i in range(21))
         self.assertEqual(breaches(lint.of_functions, a_cpp=many.split("\n", 1)[1]), [])

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Density, error and stated deviation beside OpenCV's matchers: of simulated sessions, or of URBAN_NAV_DATA's
-// Middlebury pairs where none is named. --own: without OpenCV's.
+// Density, error and stated standard deviation compared with OpenCV's matchers, on simulated sessions or, if none is
+// given, on Middlebury pairs of URBAN_NAV_DATA. --own: without OpenCV's.
 //
 //   dense_stereo-bench-accuracy [-o FILE.json] [--own] [--step N] [NAME FOLDER TRUTH_FOLDER]...
 #include <algorithm>
@@ -58,7 +58,7 @@ struct ErrorSums {
     std::nth_element(values.begin(), middle, values.end());
     return values.empty() ? 0.0 : static_cast<double>(*middle);
   }
-  /// Returns the share of the wrong ones that lies in the half with the smaller deviations, %.
+  /// Returns the share of the wrong pixels that are in the half with the smaller standard deviations, %.
   double sureWrong() {
     std::sort(all_by_variance.begin(), all_by_variance.end());
     const auto half = all_by_variance.begin() + static_cast<std::ptrdiff_t>(all_by_variance.size() / 2);

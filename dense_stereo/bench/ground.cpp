@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ground plane and obstacles against the truth of simulated sessions.
+// Ground plane and obstacles compared with the ground truth of simulated sessions.
 //
 //   dense_stereo-bench-ground [-o FILE.json] [--step N] [NAME FOLDER TRUTH_FOLDER]...
 //

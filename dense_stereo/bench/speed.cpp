@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Processor time of one pair of 512x384 px at 64 disparities on one core, beside OpenCV's matchers in the same run.
+// Processor time of one pair of 512x384 px at 64 disparities on one core, with OpenCV's matchers in the same run.
 //
 //   dense_stereo-bench-speed [-o FILE.json]
 #include <algorithm>

@@ -24,7 +24,7 @@ constexpr double kImageTimeout = 1.0;  // s
 
 }  // namespace
 
-/// Dense stereo on topics.
+/// Publishes dense stereo.
 class DenseStereoStage {
  public:
   static constexpr const char* name = "dense_stereo";
@@ -41,7 +41,7 @@ class DenseStereoStage {
   }
   std::string reset() {
     sessions_->end("reset");
-    return "the session has ended, the next pair begins a new one";
+    return "the session was ended; the next pair begins a new one";
   }
   void close() {
     if (ros::ok()) sessions_->end("shutdown");
@@ -83,7 +83,7 @@ DenseStereoStage::DenseStereoStage(Node& node) : node_(node) {
   subscribeStereo(node, options, nodelet_.compressed, urban_nav_core::MotionChoice());
   subscribeTurns();
   if (!nodelet_.gravity) return;
-  urban_nav_ros::TopicOptions unmonitored;  // an IMU need not be there
+  urban_nav_ros::TopicOptions unmonitored;  // an IMU is optional
   unmonitored.is_monitored = false;
   node.subscribeInput<sensor_msgs::Imu>(urban_nav_ros::topics::kImu, unmonitored,
                                         [](const auto& message) { return Input(message); });

@@ -17,9 +17,9 @@ using urban_nav_core::StereoCamera;
 
 namespace {
 
-constexpr float kDisparityStep = 0.05F;  // px, about the sub-pixel accuracy
+constexpr float kDisparityStep = 0.05F;  // px, about the subpixel accuracy
 
-/// Disparity in px without the offset between the principal points; negative where invalid or not in front.
+/// Returns the disparity in px without the offset between the principal points; negative if invalid or not in front.
 float plainDisparity(const DisparityImage& image, std::size_t at, float offset) {
   const float disparity = image.disparity[at];
   return disparity < 0.0F ? DisparityImage::kInvalid : disparity - offset;

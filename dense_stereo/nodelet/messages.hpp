@@ -10,8 +10,8 @@
 
 namespace dense_stereo {
 
-/// Converts disparities as stereo_image_proc does: without the disparity offset, -1 where invalid. `disparities`:
-/// searched.
+/// Converts disparities in the convention of stereo_image_proc: without the disparity offset, -1 where invalid.
+/// `disparities`: search range.
 stereo_msgs::DisparityImage toDisparityMessage(const DisparityImage& image, const urban_nav_core::StereoCamera& camera,
                                                int disparities, const std_msgs::Header& header);
 /// Converts all disparities to a cloud with the rows and columns of the image and the fields x, y, z, rgb; NaN where

@@ -9,13 +9,13 @@
 
 namespace dense_stereo {
 
-/// Converts scenes to messages: topics and types of stereo_image_proc, ground plane and obstacles. Used by one thread.
+/// Publishes scenes: topics and types of stereo_image_proc, ground plane and obstacles. Used by one thread.
 class Publisher {
  public:
-  /// `node` must outlive it.
+  /// `node` must outlive this object.
   explicit Publisher(urban_nav_ros::StageNode& node);
 
-  /// Begins a session: frame of the left camera, and what messages state of it.
+  /// Begins a session: frame and camera for the messages.
   void startSession(const std::string& frame, const urban_nav_core::StereoCamera& camera, int disparities);
   /// Returns whether any topic has a subscriber.
   bool isWanted() const;

@@ -25,7 +25,7 @@ constexpr double kLittle = 0.1;             // share of the pixels
 constexpr double kMatchedIfSwapped = 0.25;  // share of the pixels
 constexpr double kWellMatched = 0.5;        // share of the pixels
 constexpr double kLargestRowOffset = 0.5;   // px
-constexpr double kEqualExposure = 0.05;     // relative: no more than scenes differ by between two views
+constexpr double kEqualExposure = 0.05;     // relative: typical difference between two views of a scene
 
 std::unique_ptr<Matcher> makeOwnMatcher(const Parameters& parameters) {
   requireOwnMethod(parameters);
@@ -47,7 +47,7 @@ class DenseStereo::Implementation {
 
   const StereoResult& process(const urban_nav_core::StereoPair& pair) {
     PairCheck check = checkPair(pair);
-    // Images of different scenes look exchanged by chance; exchanged ones match once they are put right.
+    // Images of different scenes may appear exchanged by chance; truly exchanged ones match after swapping.
     if (check.reason == Reason::Swapped && matchShare({pair.stamp, pair.right, pair.left}) < kMatchedIfSwapped)
       check = checkPair(pair, false);
     begin(pair.left, check);
@@ -62,7 +62,7 @@ class DenseStereo::Implementation {
   }
 
  private:
-  /// Returns the share of the pixels that are answered.
+  /// Returns the share of matched pixels.
   double matchShare(const urban_nav_core::StereoPair& pair) {
     begin(pair.left, PairCheck());
     copy(pair.left, 1.0, 0.0, left_);
@@ -111,8 +111,8 @@ class DenseStereo::Implementation {
     result_.status = {Health::Degraded, static_cast<int>(Reason::LittleMatched), text};
   }
 
-  /// Rectified images agree to a few tenths of a row; beyond half a row disparities are wrong at slanted edges,
-  /// beyond two little is matched.
+  /// Detects misaligned rows. Rectified images agree to a few tenths of a row; beyond half a row disparities at slanted
+  /// edges are wrong, beyond two few pixels match.
   void checkRows() {
     if (result_.answered > kWellMatched) {
       result_.row_offset = matchedRowOffset(left_, right_, result_.image).value_or(0.0);
@@ -121,7 +121,7 @@ class DenseStereo::Implementation {
     }
     if (std::abs(result_.row_offset) < kLargestRowOffset) return;
     char text[100];
-    std::snprintf(text, sizeof text, "rows disagree: the right image shows everything %.1f px %s than the left one",
+    std::snprintf(text, sizeof text, "rows are misaligned: the right image is %.1f px %s than the left one",
                   std::abs(result_.row_offset), result_.row_offset > 0.0 ? "lower" : "higher");
     result_.status = {Health::Degraded, static_cast<int>(Reason::RowsDisagree), text};
   }

@@ -5,8 +5,7 @@
 
 namespace dense_stereo {
 
-/// Throws UserError, naming the commands that have the others, if `Parameters::method` names another method than the
-/// stage's own, semi-global matching.
+/// Throws UserError, naming the commands with other methods, if `Parameters::method` is not semi-global matching.
 void requireOwnMethod(const Parameters& parameters);
 
 }  // namespace dense_stereo

@@ -7,8 +7,8 @@
 
 namespace dense_stereo {
 
-/// An image with `kPadding` writable elements before and after every row, so that vector loops need no tails.
-/// Row-major. resize() allocates only when the size changes.
+/// Image with `kPadding` writable elements before and after every row, so that vector loops need no tails. Row-major.
+/// resize() allocates only when the size changes.
 template <typename T>
 class Padded {
  public:
@@ -27,7 +27,7 @@ class Padded {
   int height() const { return height_; }
   T* row(int v) { return data_.data() + v * stride_ + kPadding; }
   const T* row(int v) const { return data_.data() + v * stride_ + kPadding; }
-  /// Row v, or the nearest row of the image.
+  /// Returns row v, clamped to the image.
   const T* clampedRow(int v) const { return row(std::clamp(v, 0, height_ - 1)); }
 
  private:

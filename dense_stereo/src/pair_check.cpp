@@ -13,7 +13,7 @@ using urban_nav_core::ImageView;
 
 namespace {
 
-// Below this an 8-bit image holds nothing above its own noise.
+// With less contrast an 8-bit image contains only noise.
 constexpr double kLeastContrast = 2.0;  // grey levels
 constexpr double kExposureWarning = 1.25;
 
@@ -21,7 +21,7 @@ struct Brightness {
   double mean = 0.0, deviation = 0.0;  // grey levels
 };
 
-/// Of every fourth pixel of every second row.
+/// Measures every fourth pixel of every second row.
 Brightness measureBrightness(const ImageView& image) {
   std::int64_t sum = 0, squares = 0, count = 0;
   for (int v = 0; v < image.height; v += 2) {

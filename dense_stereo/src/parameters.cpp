@@ -10,7 +10,7 @@ using urban_nav_core::Table;
 
 Parameters::Parameters() { table().setDefaults(*this); }
 
-// clang-format would give each of the columns a line.
+// clang-format would put each column on its own line.
 // clang-format off
 const Table<Parameters>& table() {
   using P = Parameters;
@@ -31,24 +31,23 @@ const Table<Parameters>& table() {
            "Disparities with a larger standard deviation are invalid.",
            "dense_stereo/bench, accuracy", {}, Audience::Experts},
           {"max_range", &P::max_range, "m", 5.0, 0.5, 100.0, {},
-           "Points farther from the camera than this are used neither for the ground nor for obstacles and maps. "
-           "Cameras "
-           "of a long baseline: up to the range where 0.1 px of disparity are 5 cm of depth.",
+           "Points farther from the camera than this are not used for ground, obstacles and maps. Cameras of a long "
+           "baseline: up to the range where 0.1 px of disparity is 5 cm of depth.",
            "section 6.2"},
           {"obstacle_height", &P::obstacle_height, "m", 0.1, 0.02, 2.0, {},
-           "What stands at least this high above the ground, or lies as deep below it, is an obstacle.",
+           "Objects at least this high above the ground, or this deep below it, are obstacles.",
            "wheels of 24 cm radius"},
           {"clearance", &P::clearance, "m", 2.0, 0.1, 10.0, {},
-           "What hangs higher above the ground than this is no obstacle.", "height of the robot"},
+           "Objects higher above the ground than this are not obstacles.", "height of the robot"},
           {"point_spacing", &P::point_spacing, "m", 0.1, 0.01, 1.0, {},
-           "Of the points in a cube of this size, a map by planar lasers keeps the most certain one of each keyframe.",
+           "Edge of the cubes in which a map by planar lasers keeps the most accurate point of each keyframe.",
            "size of the store"},
           {"keyframe_distance", &P::keyframe_distance, "m", 0.25, 0.0, 100.0, {},
            "Distance travelled between pairs that map matches densely.", "budget of map"},
           {"keyframe_angle", &P::keyframe_angle, "rad", 0.175, 0.0, 7.0, {},
-           "Or rotation between them.", "budget of map", {}, Audience::Experts},
+           "Rotation between pairs that map matches densely.", "budget of map", {}, Audience::Experts},
           {"keyframe_interval", &P::keyframe_interval, "s", 0.25, 0.0, 60.0, {},
-           "Minimum time between them.", "budget of map", {}, Audience::Experts},
+           "Minimum time between pairs that map matches densely.", "budget of map", {}, Audience::Experts},
       });
   return rows;
 }

@@ -18,7 +18,7 @@ constexpr int kLeastSlope = 8;  // grey levels for two rows
 
 using Block = std::array<int, (2 * kBlockRadius + 1) * (2 * kBlockRadius + 1)>;
 
-/// The pixels around (u, v), their mean removed.
+/// Returns the pixels around (u, v), with their mean removed.
 Block blockAt(const Padded<std::uint8_t>& image, int u, int v) {
   Block block{};
   int sum = 0;
@@ -36,7 +36,7 @@ int computeDistance(const Block& a, const Block& b) {
   return sum;
 }
 
-/// Texture across the rows, without which no row is better than its neighbours.
+/// Returns the texture across rows, which is required to distinguish rows.
 int rowTexture(const Padded<std::uint8_t>& image, int u, int v) {
   int sum = 0;
   for (int dv = -kBlockRadius; dv <= kBlockRadius; ++dv)
@@ -45,7 +45,7 @@ int rowTexture(const Padded<std::uint8_t>& image, int u, int v) {
   return sum;
 }
 
-/// The row in which a block is matched best, relative to its own; `farthest + 1` if none is clearly best.
+/// Returns the row in which a block is matched best, relative to its own; `farthest + 1` without a clear minimum.
 int bestRow(const Padded<std::uint8_t>& left, const Padded<std::uint8_t>& right, int u, int v, int disparities) {
   const Block block = blockAt(left, u, v);
   std::array<int, 2 * kFarthest + 1> costs{};
@@ -74,7 +74,7 @@ std::optional<double> matchedRowOffset(const Padded<std::uint8_t>& left, const P
       if (column < 0) continue;
       const int slope = right.row(v + 1)[column] - right.row(v - 1)[column];
       const int difference = left.row(v)[u] - right.row(v)[column];
-      // Where the images differ by more than the slope explains, they show different things.
+      // Pixels whose difference exceeds what the slope explains belong to different points.
       if (std::abs(slope) < kLeastSlope || std::abs(difference) > std::abs(slope)) continue;
       moment += 2 * slope * difference;
       information += slope * slope;

@@ -73,7 +73,7 @@ TEST(DenseStereo, ReportsByHowMuchRowsDisagree) {
   EXPECT_NEAR(stereo.process(scene.pair()).row_offset, 0.0, 0.1);
   for (const int rows : {1, 3, 5}) {
     urban_nav_core::StereoPair pair =
-        scene.pair();  // the right image starts above the left one: it shows everything lower
+        scene.pair();  // the right image begins above the left one, so it is shifted down
     pair.left.data += rows * pair.left.stride;
     pair.left.height -= rows;
     pair.right.height -= rows;

@@ -11,7 +11,7 @@
 namespace dense_stereo {
 namespace {
 
-/// A Middlebury pair with truth; skipped where the data are absent.
+/// Middlebury pair with ground truth; skipped without the data.
 class MiddleburyPair : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Trains a model of places with SIFT or ORB features of OpenCV on folders of images, and writes the likeliest earlier
-// image of each image of another folder, with its probability: what `places train` and `places query` do with the
-// features of the suite. Stamps are those of times.txt (s), otherwise images are 1 s apart.
+// image of each image of another folder, with its probability, like `places train` and `places query` with the default
+// features. Stamps are those of times.txt (s), otherwise images are 1 s apart.
 //
 //   fabmap_node-bench-opencv_features sift|orb WORDS QUERY_FOLDER TRAINING_FOLDER... > MATCHES.csv
 #include <algorithm>

@@ -43,7 +43,7 @@ using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 using urban_nav_core::testing::threadMs;
 
-/// Median of the processor times of `runs` calls, ms, after one that does not count.
+/// Returns the median of the processor times of `runs` calls, ms, after a warm-up call.
 template <typename Call>
 double medianMs(int runs, const Call& call) {
   std::vector<double> times;
@@ -140,7 +140,7 @@ double heapKb() {
   return static_cast<double>(heap.uordblks + heap.hblkhd) / 1024.0;
 }
 
-/// Writes a map of `count` keyframes that show `images` in turns, as `map` stores them, and returns them.
+/// Writes a map of `count` keyframes that show `images` cyclically, in the form of `map`, and returns them.
 std::vector<urban_nav_registration::SearchedKeyframe> writeKeyframes(const std::string& path,
                                                                      const std::vector<cv::Mat>& images,
                                                                      std::size_t count) {
@@ -193,7 +193,7 @@ double addKeyframes(const std::vector<cv::Mat>& images, BenchTable& table) {
   return memory;
 }
 
-/// Writes a store with one session whose places are `descriptions` in turns.
+/// Writes a store with one session whose places are `descriptions`, repeated cyclically.
 void writeStoredPlaces(const std::string& path, const std::vector<PlaceDescription>& descriptions, std::size_t count) {
   urban_nav_store::Store store(path, urban_nav_store::Access::Write);
   const auto visitAll = [&](const PlaceVisitor& visit) {
@@ -204,7 +204,7 @@ void writeStoredPlaces(const std::string& path, const std::vector<PlaceDescripti
   store.commit();
 }
 
-/// What the nodelet does when it starts with a store: all places are read and indexed.
+/// Start of the nodelet with a store: all places are read and indexed.
 void addStoredPlaces(const std::vector<PlaceDescription>& descriptions, std::size_t count, BenchTable& table) {
   std::string folder = (std::filesystem::temp_directory_path() / "places_speed_XXXXXX").string();
   if (::mkdtemp(folder.data()) == nullptr) return;
@@ -222,7 +222,7 @@ void addStoredPlaces(const std::vector<PlaceDescription>& descriptions, std::siz
   std::filesystem::remove_all(folder);
 }
 
-/// Maps of panoramas whose descriptors are read back one by one, as from a store, but for the time of the disk.
+/// Maps of panoramas whose descriptors are read back one by one, as from a store, without the time of the disk.
 void addLargeMaps(const PlaceModel& model, const std::vector<PlaceDescription>& descriptions, BenchTable& table) {
   const LikelihoodTable likelihoods(model.tree, model.detector, Dependence::ChowLiu);
   const auto shown = [&descriptions](std::size_t i) -> const PlaceDescription& {

@@ -9,8 +9,8 @@
 
 namespace fabmap_node {
 
-/// Draws the beliefs along the path in the colour of what is known (KNOWN green, UNSURE orange, NEW blue). For the last
-/// one: a text, and for a place of this session a line to it and a sphere there, whose diameter grows with its
+/// Returns markers of the beliefs along the path, coloured by knowledge (KNOWN green, UNSURE orange, NEW blue). The
+/// last one also has a text, and for a place of this session a line to it and a sphere whose diameter grows with its
 /// probability. Earlier markers are deleted. Requires a point.
 visualization_msgs::MarkerArray toMarkers(const BeliefTrail& trail, const std::string& odom_frame);
 

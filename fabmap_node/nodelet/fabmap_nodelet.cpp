@@ -31,7 +31,7 @@ namespace {
 
 constexpr double kImageTimeout = 2.0;     // s
 constexpr double kOdometryTimeout = 5.0;  // s
-// Writes of some 25 kB that wait for a commit, beside those that LivePlaces holds while the disk takes none.
+// Capacity for pending writes of about 25 kB, in addition to those that LivePlaces holds while the disk is unavailable.
 constexpr std::size_t kWaitingPlaces = 1000;
 
 /// Image of one camera of the head.
@@ -67,8 +67,7 @@ urban_nav_msgs::PlaceBelief toMessage(const PlaceBelief& belief) {
 
 }  // namespace
 
-/// Place recognition on topics: panoramas and odometry in, places/belief and places/closure out; places/markers while
-/// it has a subscriber.
+/// Publishes places/belief and places/closure from panoramas and odometry; places/markers while it has a subscriber.
 class FabmapStage {
  public:
   static constexpr const char* name = "fabmap_node";
@@ -84,7 +83,7 @@ class FabmapStage {
   void close() {}
   static constexpr int kFinishOrder = 0;  // before the stage that measures its closures
   void finish(std::chrono::milliseconds /*limit*/) {
-    feed_->finish();  // a panorama that waits for further images is one with those it has
+    feed_->finish();  // completes a pending panorama with the images received
     processPanoramas();
     places_->commit();
   }
@@ -113,7 +112,7 @@ class FabmapStage {
   std::unique_ptr<LivePlaces> places_;
   BeliefTrail trail_;
   std::string odom_frame_;
-  std::size_t drawn_ = 0;  // count of the trail when it was drawn
+  std::size_t drawn_ = 0;  // count of the trail at the last drawing
 };
 
 FabmapStage::FabmapStage(Node& node) : node_(node) {
@@ -196,7 +195,7 @@ void FabmapStage::handle(Input& input) {
   images_->add(static_cast<int>(image.camera), image.image.stamp(), image);
 }
 
-/// Images of the cameras come on connections of their own: their stamps jump back one after the other.
+/// Images of the cameras have separate connections: their stamps jump back one after the other.
 void FabmapStage::sortImages() {
   Images::Options options;
   for (int camera = 0; camera < nodelet_.cameras; ++camera) options.leading.insert(camera);
@@ -238,7 +237,7 @@ void FabmapStage::process(const Panorama& panorama) {
   for (const auto& closure : output.closures) closure_.publish(urban_nav_ros::toTopologicalClosureMessage(closure));
 }
 
-/// Draws a trail that has grown.
+/// Draws the trail if it has grown.
 void FabmapStage::publishMarkers() {
   if (markers_.getNumSubscribers() == 0 || trail_.count() == drawn_ || trail_.points().empty()) return;
   markers_.publish(toMarkers(trail_, odom_frame_));
@@ -261,7 +260,7 @@ std::string FabmapStage::reset() {
   trail_.clear();
   startFeed();
   return std::string("all places ") + (nodelet_.map.empty() ? "" : "but those of the map ") +
-         "are forgotten, the next panorama begins a new session";
+         "were removed; the next panorama begins a new session";
 }
 
 class FabmapNodelet : public urban_nav_ros::StageNodelet<FabmapStage> {};

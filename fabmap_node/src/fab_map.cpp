@@ -19,7 +19,7 @@ RecogniserOptions recogniserOptions(const Parameters& parameters) {
   RecogniserOptions options;
   options.matcher.second_looks = parameters.descriptor_matching ? kSecondLookCandidates : 0;
   options.sequence = parameters.sequence;
-  options.detects_stationary = false;  // process() passes on observations of a moving camera only
+  options.detects_stationary = false;  // process() passes on only observations of a moving camera
   options.mask = static_cast<StampNs>(std::llround(1e9 * parameters.mask));
   return options;
 }

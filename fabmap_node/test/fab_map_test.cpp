@@ -18,7 +18,7 @@ using urban_nav_core::StampNs;
 
 constexpr StampNs kPlaceSecond = 1'000'000'000;
 
-/// Model of synthetic places, with a calibration that announces what clearly agrees.
+/// Model of synthetic places, with a calibration that announces clear matches.
 const PlaceModel& syntheticModel() {
   static const PlaceModel model = [] {
     std::vector<TrainingDrive> drives(3);

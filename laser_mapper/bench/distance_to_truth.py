@@ -5,7 +5,7 @@
     distance_to_truth.py MAP.ply BAG.truth [TRAJECTORY.tum]
 
 With a trajectory, the map is moved by the rigid motion that aligns its poses with the true ones. Points farther than 20 m from the
-laser, those nearest to leaves, and those of dense stereo are left out, which a line of their own states.
+laser and those nearest to leaves are omitted; points of dense stereo have a separate line.
 """
 import sys
 from pathlib import Path
@@ -35,7 +35,7 @@ def positions(cloud):
 
 
 def distances(points, truth):
-    """To the plane through the seven nearest samples where these are flat and around the point, else to the nearest."""
+    """Returns distances to the plane through the seven nearest samples, if they are flat and around the point, else to the nearest."""
     near_distance, near = cKDTree(truth).query(points, k=7)
     patches = truth[near]
     centres = patches.mean(1)
@@ -48,20 +48,20 @@ def distances(points, truth):
 
 
 def spread(poses):
-    """Points around each pose, since positions along a straight do not tell how the map is turned about it."""
+    """Returns points around each pose, because positions on a straight line do not determine the rotation about it."""
     axes = LEVER * Rotation.from_quat(poses[:, 4:8]).as_matrix()
     return np.concatenate([poses[:, 1:4] + sign * axes[:, :, i] for i in range(3) for sign in (-1, 1)])
 
 
 def rigid_motion(source, target):
-    """R, t that take `source` to `target` (Umeyama 1991)."""
+    """Returns R, t that take `source` to `target` (Umeyama 1991)."""
     u, _, v = np.linalg.svd((target - target.mean(0)).T @ (source - source.mean(0)))
     rotation = u @ np.diag([1.0, 1.0, np.linalg.det(u @ v)]) @ v
     return rotation, target.mean(0) - rotation @ source.mean(0)
 
 
 def measure(map_ply, folder, trajectory=None):
-    """{"lasers": (distances m, stated sigmas m), "stereo": ...} of the points of a map; kinds without points are left out."""
+    """Returns {"lasers": (distances m, stated sigmas m), "stereo": ...} of the points of a map, without kinds that have no points."""
     cloud, folder = read_ply(map_ply), Path(folder)
     points, stamps = positions(cloud), cloud["stamp"]
     true = np.loadtxt(folder / "trajectory.tum")

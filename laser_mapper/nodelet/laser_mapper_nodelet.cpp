@@ -33,8 +33,8 @@ using urban_nav_ros::InfoInput;
 
 namespace {
 
-constexpr double kPointBytes = 50.0, kTileBytes = 100'000.0;  // of a point; between two rounds at least
-constexpr int kRestPerWork = 3;                               // times as long as a cloud took until the next one begins
+constexpr double kPointBytes = 50.0, kTileBytes = 100'000.0;  // per point; least amount per round
+constexpr int kRestPerWork = 3;                               // pause after a cloud, in units of its computing time
 constexpr double kConstraintPeriods = 5.0;                    // between two searches for constraints, at least
 
 enum class MapFault { None = 0, NoOdometry = 1, NoLasers = 2, NoLaserPlace = 3, NotStored = 4 };
@@ -60,7 +60,7 @@ std::string temporaryStore(const std::string& node) {
 
 }  // namespace
 
-/// The map of the lasers on a topic: scans and poses are recorded, and a cloud is made while it has a subscriber.
+/// Publishes the laser map: records scans and poses, and renders a cloud while it has a subscriber.
 class LaserMapperStage {
  public:
   static constexpr const char* name = "laser_mapper";
@@ -85,7 +85,7 @@ class LaserMapperStage {
   void publishCloud(const std::vector<MapPoint>& points);
   void publishTiles();
   void publishConstraints();
-  /// Returns when the next piece of work may begin after one that began at `begin`.
+  /// Returns when the next task may begin after one that began at `begin`.
   static Clock::time_point nextTime(Clock::time_point begin, double period);
   bool isWanted() const;
   std::string save(const std::string& path);
@@ -101,7 +101,7 @@ class LaserMapperStage {
   urban_nav_live::BeamFaults beams_;
   bool changed_ = false, are_constraints_due_ = false;
   Clock::time_point due_, constraints_due_, tiles_sent_ = Clock::now();
-  double seconds_ = 0.0;  ///< of the last cloud
+  double seconds_ = 0.0;  ///< computing time of the last cloud
 };
 
 LaserMapperStage::LaserMapperStage(Node& node) : node_(node) {
@@ -212,7 +212,7 @@ void LaserMapperStage::publish() {
     quality_.publish(toMapQualityMessage(map_->measureQuality(), nodelet_.map_frame, map_->newest()));
 }
 
-/// Sends what has changed within the bandwidth; everything to a new subscriber.
+/// Publishes changes within the bandwidth; all tiles to a new subscriber.
 void LaserMapperStage::publishTiles() {
   const std::uint32_t subscribers = tiles_.getNumSubscribers();
   if (subscribers > tile_subscribers_) map_->repeatAll();

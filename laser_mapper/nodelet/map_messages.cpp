@@ -9,7 +9,7 @@ namespace laser_mapper {
 
 namespace {
 
-/// The points with all that a PCD file of the map has.
+/// Returns the points with all fields of a PCD file of the map.
 sensor_msgs::PointCloud2 wholePoints(const std::vector<MapPoint>& points) {
   std::string bytes;
   for (const MapPoint& point : points) appendPcdPoint(bytes, point);

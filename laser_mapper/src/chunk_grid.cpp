@@ -14,7 +14,7 @@ using urban_nav_registration::toKey;
 
 namespace {
 
-/// Ascends with the tile, then z, y and x within it.
+/// Returns a sort key: by tile, then z, y and x within it.
 std::uint64_t orderKey(const Cell& cell) {
   const Tile tile = tileAt(cell);
   const auto part = [](int value, int bias) { return static_cast<std::uint64_t>(value + bias); };
@@ -89,7 +89,7 @@ void ChunkGrid::markGhosts(const std::function<bool(std::uint8_t)>& of_sensor,
 }
 
 void ChunkGrid::appendTo(std::map<Tile, std::vector<MapCell>>& parts) const {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;  // no two cubes have one key
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;  // keys are unique
   order.reserve(sums_.size());
   for (std::uint32_t i = 0; i < sums_.size(); ++i) order.emplace_back(orderKey(sums_[i].cell), i);
   std::sort(order.begin(), order.end());

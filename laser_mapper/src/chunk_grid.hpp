@@ -10,29 +10,29 @@
 
 namespace laser_mapper {
 
-/// Averages of the measurements of a chunk by the cube of the map's grid that they end in. Not thread-safe.
+/// Averages the measurements of a chunk by the voxel of the map's grid in which they end. Not thread-safe.
 class ChunkGrid {
  public:
-  /// `centre`: centre of the chunk, m. `begin`: of the chunk.
+  /// `centre`: centre of the chunk, m. `begin`: beginning of the chunk.
   ChunkGrid(double voxel, const Eigen::Vector3d& centre, urban_nav_core::StampNs begin);
 
-  /// Returns the pose of the map in the frame that points are added in: it has the axes of the map.
+  /// Returns the pose of the map in the frame of added points, whose axes are those of the map.
   urban_nav_core::Pose framePose() const;
 
-  /// Adds a point in framePose(). `sensor`: its id in MapCell::laser; `weight`: of its share in the means of the cube;
-  /// `count`: beams that it represents. Returns false for a point beyond the grid.
+  /// Adds a point in framePose(). `sensor`: id in MapCell::laser; `weight`: of the point in the means of the voxel;
+  /// `count`: number of beams that it represents. Returns false for a point beyond the grid.
   bool add(const urban_nav_core::LaserPoint& point, std::uint8_t sensor, float weight = 1.0F, int count = 1);
 
-  /// Marks the cubes of a kind of sensor for which `is_ghost` holds: eight of them at once, by their mean position in
-  /// framePose().
+  /// Marks the voxels of a kind of sensor for which `is_ghost` holds; eight voxels are tested at once, by their mean
+  /// position in framePose().
   void markGhosts(const std::function<bool(std::uint8_t sensor)>& of_sensor,
                   const std::function<bool(const Eigen::Vector3d& p)>& is_ghost);
 
-  /// Appends the cubes to those of their tiles, in the order of z, y, x.
+  /// Appends the voxels to those of their tiles, in the order of z, y, x.
   void appendTo(std::map<Tile, std::vector<MapCell>>& parts) const;
 
  private:
-  /// Weighted sums over the measurements in a cube.
+  /// Weighted sums over the measurements in a voxel.
   struct Sums {
     Cell cell;
     Eigen::Vector3f offset = Eigen::Vector3f::Zero(), to_laser = Eigen::Vector3f::Zero();
@@ -49,7 +49,7 @@ class ChunkGrid {
   Cell origin_cell_;
   Eigen::Vector3d origin_;
   urban_nav_registration::CellTable table_;
-  std::vector<Sums> sums_;  ///< in the order in which measurements came to the cubes
+  std::vector<Sums> sums_;  ///< in order of first occurrence
 };
 
 }  // namespace laser_mapper

@@ -24,16 +24,16 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-constexpr std::size_t kMostViews = 24;  // depth images that are asked about a point
-constexpr float kWeightSigma = 0.01F;   // m: a point of stereo as certain as this has the weight 1
-constexpr int kFewestThrough = 2;       // sweeps that see through what has moved away
+constexpr std::size_t kMostViews = 24;  // depth images compared with a point
+constexpr float kWeightSigma = 0.01F;   // m: standard deviation of a stereo point with weight 1
+constexpr int kFewestThrough = 2;       // sweeps required to see through a moved object
 
 Eigen::Vector3d chunkCentre(const Trajectory& T_map_base, StampNs begin) {
   if (T_map_base.empty()) return Eigen::Vector3d::Zero();
   return T_map_base[T_map_base.nearest(begin + kChunkNs / 2)].pose.t();
 }
 
-/// Removes beams that are not to be rendered.
+/// Removes beams that must not be rendered.
 Scan usableBeams(const Scan& scan, std::uint8_t sensor, const Parameters& parameters, BeamCounts& counts) {
   std::vector<std::uint8_t> mixed(scan.beams.size(), 0);
   if (parameters.mixed_pixels) {
@@ -54,7 +54,7 @@ Scan usableBeams(const Scan& scan, std::uint8_t sensor, const Parameters& parame
   return usable;
 }
 
-/// Adds a measurement of stereo as a beam from the camera, whose range is its standard deviation.
+/// Returns a stereo measurement as a beam from the camera whose range is its standard deviation.
 LaserPoint stereoPoint(StampNs stamp, const Eigen::Vector3d& p, const Eigen::Vector3d& camera, float sigma,
                        float grey) {
   LaserPoint point;
@@ -78,7 +78,7 @@ void addStereo(const Parameters& parameters, const Trajectory& T_map_base, const
   }
 }
 
-/// Returns at most kMostViews of the views, evenly spaced.
+/// Returns at most kMostViews views, evenly subsampled.
 std::vector<PosedDepth> chooseViews(const std::vector<PosedDepth>& views) {
   const std::size_t step = (views.size() + kMostViews - 1) / kMostViews;
   std::vector<PosedDepth> chosen;
@@ -86,7 +86,7 @@ std::vector<PosedDepth> chooseViews(const std::vector<PosedDepth>& views) {
   return chosen;
 }
 
-/// Adds what the depth images of a chunk, and those around it, agree on.
+/// Adds points on which the depth images of a chunk and those around it agree.
 void addViews(const Parameters& parameters, const Trajectory& T_map_base,
               const std::vector<std::shared_ptr<const DepthFrame>>& views, StampNs begin, ChunkGrid& grid) {
   std::vector<PosedDepth> posed;
@@ -128,7 +128,7 @@ void addLidars(const Parameters& parameters, const Trajectory& T_map_base, const
       addLasers(parameters, T_map_base, {{lidar.T_base_lidar, lidar.sensor, sweep->rings()}}, grid, counts);
 }
 
-/// Marks what 3D LiDARs saw move: cubes that more of the sweeps around them see through than see occupied.
+/// Marks moving objects in 3D LiDAR data: voxels that more of the sweeps around them see through than see occupied.
 void markMoving(const Parameters& parameters, const Trajectory& T_map_base, const std::vector<LidarInput>& lidars,
                 ChunkGrid& grid) {
   std::vector<SweepView> views;

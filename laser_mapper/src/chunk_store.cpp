@@ -22,7 +22,7 @@ using urban_nav_store::MapChunkCells;
 namespace {
 
 constexpr StampNs kPoseSpacing = 500'000'000;
-constexpr double kLever = 10.0;         // m, from the robot to the points of a chunk
+constexpr double kLever = 10.0;         // m, typical distance of a chunk's points from the robot
 constexpr std::size_t kPoseBytes = 64;  // a stamp and seven numbers
 
 void appendStampedPose(std::string& bytes, StampNs stamp, const Pose& pose) {
@@ -89,7 +89,7 @@ std::string packChunkPoses(const Trajectory& T_map_base, StampNs begin, StampNs 
   std::string bytes;
   for (StampNs stamp = begin; stamp <= begin + kChunkNs; stamp += kPoseSpacing)
     if (const auto pose = T_map_base.at(stamp, max_gap)) appendStampedPose(bytes, stamp, *pose);
-  // Where the trajectory begins or ends within the chunk, more of its beams may have a pose now than then.
+  // At a begin or end of the trajectory within the chunk, the number of beams with a pose may have changed.
   for (const urban_nav_core::StampedPose* end : {&T_map_base.front(), &T_map_base.back()})
     if (end->stamp > begin && end->stamp < begin + kChunkNs) appendStampedPose(bytes, end->stamp, end->pose);
   return bytes;
@@ -116,7 +116,7 @@ double chunkShift(const std::string& packed, const Trajectory& T_map_base, Stamp
 }
 
 std::string renderSettings(const Parameters& parameters, const std::vector<MountedLaser>& lasers) {
-  std::string text = "2";  // of this encoding
+  std::string text = "2";  // version of this encoding
   for (const double value :
        {parameters.voxel, parameters.min_range, parameters.max_range, parameters.range_sigma, parameters.max_gap,
         parameters.mixed_pixels ? 1.0 : 0.0, parameters.ghosts ? parameters.ghost_gap : 0.0,

@@ -14,7 +14,7 @@
 
 namespace laser_mapper {
 
-/// The cells of a chunk in a tile, as the store has them.
+/// Packed cells of a chunk in a tile.
 struct PackedPart {
   Tile tile;
   std::int64_t cells = 0;
@@ -22,18 +22,18 @@ struct PackedPart {
 };
 PackedPart packPart(const Tile& tile, const std::vector<MapCell>& cells);
 
-/// Chunks of one session in a store.
+/// Stored chunks of one session.
 class ChunkStore {
  public:
   ChunkStore(urban_nav_store::Store& store, const urban_nav_store::SessionId& session)
       : session_(session), chunks_(store), cells_(store) {}
 
-  /// Returns all chunks by their beginnings.
+  /// Returns all chunks by beginning.
   std::map<urban_nav_core::StampNs, urban_nav_store::MapChunk> chunks() const;
   /// Writes a chunk; `header` describes it. `old`: the stored chunk that it replaces, if any.
   void put(urban_nav_store::MapChunk header, std::vector<PackedPart> parts, const urban_nav_store::MapChunk* old);
   void remove(const urban_nav_store::MapChunk& chunk);
-  /// Replaces the cells of a stored chunk in a tile by the same cells with other flags.
+  /// Replaces the cells of a stored chunk in a tile by cells with other flags.
   void putCells(urban_nav_core::StampNs begin, PackedPart part);
   /// Calls `take` for the chunks with cells in a tile, in order of time.
   void forEachInTile(const Tile& tile,
@@ -48,15 +48,15 @@ class ChunkStore {
 /// Returns the tiles of MapChunk::tiles.
 std::vector<Tile> chunkTiles(const urban_nav_store::MapChunk& chunk);
 
-/// Poses along a chunk, to notice that it moved.
+/// Encodes the poses along a chunk, to detect that it moved.
 std::string packChunkPoses(const urban_nav_core::Trajectory& T_map_base, urban_nav_core::StampNs begin,
                            urban_nav_core::StampNs max_gap);
-/// Returns by how much the points of a chunk, some 10 m away, have moved since its poses were packed, m; infinity if
-/// the trajectory now covers other times, or the bytes are damaged.
+/// Returns the displacement of a chunk's points, about 10 m away, since its poses were packed, m; infinity if the
+/// trajectory now covers other times, or the bytes are damaged.
 double chunkShift(const std::string& packed, const urban_nav_core::Trajectory& T_map_base,
                   urban_nav_core::StampNs begin, urban_nav_core::StampNs max_gap);
 
-/// Digest of all that a chunk depends on besides its poses and scans.
+/// Returns a digest of everything that a chunk depends on besides its poses and scans.
 std::string renderSettings(const Parameters& parameters, const std::vector<MountedLaser>& lasers);
 
 }  // namespace laser_mapper

@@ -18,14 +18,14 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-constexpr StampNs kEvidenceSpacing = 400'000'000;  // between sweeps that are evidence of free space
+constexpr StampNs kEvidenceSpacing = 400'000'000;  // between sweeps used as evidence of free space
 
 template <typename Value>
 void dropBefore(std::map<StampNs, Value>& values, StampNs stamp) {
   values.erase(values.begin(), values.lower_bound(stamp));
 }
 
-/// Returns the first sweep of each kEvidenceSpacing of time.
+/// Returns the first sweep of each interval of kEvidenceSpacing.
 template <typename Sweeps>
 auto chooseSweeps(const Sweeps& sweeps) {
   std::vector<typename Sweeps::mapped_type> chosen;

@@ -12,8 +12,8 @@
 
 namespace laser_mapper {
 
-/// Reads the sweeps and depth images that the chunks of a session need, with those of the seconds around them. What two
-/// chunks share is read once, if they are asked for in order of time. Not thread-safe.
+/// Reads the sweeps and depth images of the chunks of a session, with those of the seconds around them. Data common to
+/// two chunks are read once if chunks are read in order of time. Not thread-safe.
 class EvidenceReader {
  public:
   /// The store must outlive the reader.

@@ -14,12 +14,13 @@ using urban_nav_registration::toKey;
 
 namespace {
 
-constexpr float kMaxWeight = 16.0F;    // beams: a cube that the robot stood beside does not outweigh its neighbours
-constexpr float kLeastExtent = 0.15F;  // square edges: variance in the plane's shorter direction, 0.75 where it is full
+constexpr float kMaxWeight = 16.0F;    // beams: a voxel near a standing robot must not dominate its neighbours
+constexpr float kLeastExtent = 0.15F;  // squared edges: variance in the plane's shorter direction, 0.75 if it is fully
+                                       // covered
 constexpr int kLeastCubes = 3;
-constexpr float kMaxFlatness = 0.3F;  // thickness over the shorter extent: beyond, there is no plane
+constexpr float kMaxFlatness = 0.3F;  // ratio of thickness to the shorter extent, beyond which there is no plane
 
-int coarse(int value, int level) { return value >> level; }  // towards minus infinity
+int coarse(int value, int level) { return value >> level; }  // rounds towards minus infinity
 
 }  // namespace
 
@@ -118,7 +119,7 @@ std::optional<LocalPlane> LocalPlanes::fitPlane(int level, const Cell& cube) con
   return plane;
 }
 
-/// All cells of one cube share its plane: from the second level on it is fitted once for several of them.
+/// All cells of a coarse cube share its plane: from the second level on it is fitted once for several cells.
 std::optional<LocalPlane> LocalPlanes::planeAt(int level, const Cell& cell) {
   const Cell cube{coarse(cell.x, level), coarse(cell.y, level), coarse(cell.z, level)};
   if (level == 0) return fitPlane(level, cube);

@@ -11,28 +11,27 @@
 
 namespace laser_mapper {
 
-/// The plane that fits a neighbourhood best.
+/// Best-fitting plane of a neighbourhood.
 struct LocalPlane {
   Eigen::Vector3f centre = Eigen::Vector3f::Zero();  ///< m, in the frame of LocalPlanes
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
-  float thickness = 0.0F;  ///< m, standard deviation of the cubes' means about the plane
-  float weight = 0.0F;     ///< beams that it rests on
-  int level = 0;           ///< the neighbourhood was 3 * 2^level cubes wide
+  float thickness = 0.0F;  ///< m, standard deviation of the voxel means about the plane
+  float weight = 0.0F;     ///< number of beams used
+  int level = 0;           ///< width of the neighbourhood: 3 * 2^level voxels
 };
 
-/// Planes through the neighbourhoods of the cubes of a tile, from the moments of cubes of one, two, four and eight
-/// edges: far from the laser its beams are far apart. Remembers the planes of cubes that it was asked for. Not
-/// thread-safe. Positions are in a frame with the axes of the map whose origin is the corner of the tile.
+/// Planes through the neighbourhoods of the voxels of a tile, from the moments of cubes of one, two, four and eight
+/// voxel edges, because beams are sparse far from the laser. Caches computed planes. Not thread-safe. Positions are in
+/// a frame with the axes of the map and its origin at the corner of the tile.
 class LocalPlanes {
  public:
   LocalPlanes(double voxel, const Tile& tile, const std::vector<MergedCell>& cells,
               const std::vector<MergedCell>& margin);
 
-  /// Returns the plane of the smallest neighbourhood that extends in two directions; nullopt if none does.
+  /// Returns the plane of the smallest neighbourhood that extends in two directions; nullopt if there is none.
   std::optional<LocalPlane> around(const MergedCell& cell);
-  /// Returns whether another cube represents the surface at a point of this one: the point lies in it, or it is the
-  /// next one along the normal and `reach` (m) of noise separates it from the plane; and it has more beams. `position`:
-  /// of the point.
+  /// Returns whether another voxel represents the surface at a point of this one: it contains the point, or is the next
+  /// one along the normal within `reach` (m) of noise; and it has more beams. `position`: of the point.
   bool belongsToAnother(const MergedCell& cell, const Eigen::Vector3f& position, const LocalPlane& plane,
                         float reach) const;
   Eigen::Vector3f position(const MergedCell& cell) const;
@@ -40,18 +39,18 @@ class LocalPlanes {
 
  private:
   static constexpr int kLevels = 4;
-  /// Sums over beams, with w the number of beams of a cube, at most kMaxWeight.
+  /// Weighted sums over the voxels, w: number of beams of a voxel, at most kMaxWeight.
   struct Moments {
     float w = 0.0F;
-    Eigen::Vector3f first = Eigen::Vector3f::Zero();                         ///< of w times the position
+    Eigen::Vector3f first = Eigen::Vector3f::Zero();                         ///< w times position
     Eigen::Matrix<float, 6, 1> second = Eigen::Matrix<float, 6, 1>::Zero();  ///< xx xy xz yy yz zz
     void add(const Moments& other, const Eigen::Vector3f& shift);
   };
   struct Level {
     urban_nav_registration::CellTable table{1 << 10};
-    std::vector<Moments> cubes;  ///< about the centres of the cubes
+    std::vector<Moments> cubes;  ///< relative to the centres of the cubes
     float edge = 0.0F;           ///< m
-    /// Of the neighbourhood of each cube: number in `planes`, or kUnknown, or kNone.
+    /// Plane of the neighbourhood of each cube: index in `planes`, kUnknown, or kNone.
     std::vector<std::int32_t> plane_of;
     std::vector<LocalPlane> planes;
   };
@@ -65,7 +64,7 @@ class LocalPlanes {
   const float voxel_;
   Cell corner_;
   Eigen::Vector3d origin_;
-  std::vector<float> counts_;  ///< beams of each cube of level 0
+  std::vector<float> counts_;  ///< beams of each voxel of level 0
   std::array<Level, kLevels> levels_;
 };
 

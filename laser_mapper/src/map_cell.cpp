@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t kMaxCellBytes = std::size_t{1} << 28;
 constexpr std::size_t kCellBytes = 23;
-constexpr std::uint32_t kGhostBit = 128;  // of the laser's number
-constexpr int kOffsetSteps = 65535;       // of an edge
+constexpr std::uint32_t kGhostBit = 128;  // in the byte of the sensor
+constexpr int kOffsetSteps = 65535;       // per voxel edge
 constexpr float kRangeStep = 1e-3F;       // m
 constexpr float kDirectionStep = 127;     // per unit
 
@@ -27,7 +27,7 @@ std::uint32_t quantise(float value, float per_unit, std::uint32_t largest) {
   return static_cast<std::uint32_t>(std::clamp(std::round(value * per_unit), 0.0F, static_cast<float>(largest)));
 }
 
-/// Column-wise writer of small numbers: the bytes of equal weight lie side by side, which compresses best.
+/// Writes small numbers by column: bytes of equal significance are contiguous, which compresses best.
 class ByteColumns {
  public:
   explicit ByteColumns(std::size_t rows) : rows_(rows) {}

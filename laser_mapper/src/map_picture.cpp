@@ -15,12 +15,12 @@ namespace {
 
 constexpr float kPaper = 250.0F;
 constexpr float kPathBlue = 40.0F, kPathGreen = 40.0F, kPathRed = 220.0F;
-constexpr double kPointEdge = 0.06;   // m, drawn size of a point in perspective
+constexpr double kPointEdge = 0.06;   // m, size of a point in perspective
 constexpr int kLargestSplat = 4;      // px
-constexpr double kBeyondSide = 1e-3;  // share of the drawn pixels
+constexpr double kBeyondSide = 1e-3;  // share of the drawn pixels beyond a side
 constexpr int kPictureEdge = 12;      // px
 
-/// Pixels from the first to the last one.
+/// First and last pixel.
 struct Interval {
   int first = 0, last = 0;
   void add(int pixel) {
@@ -33,7 +33,7 @@ struct Interval {
   }
 };
 
-/// Returns the pixels beyond which, on either side, no more than `beyond` were drawn; all where nothing was drawn.
+/// Returns the interval with at most `beyond` drawn pixels on either side; everything if nothing was drawn.
 Interval trimmedEnds(const std::vector<std::size_t>& drawn, std::size_t beyond) {
   Interval ends{0, static_cast<int>(drawn.size()) - 1};
   std::size_t before = 0, after = 0;
@@ -57,7 +57,7 @@ Box boxAround(const std::vector<Vector3d>& path) {
   return box;
 }
 
-/// Light from above and from the side, so that walls of different directions differ.
+/// Lighting from above and from the side, so that walls of different directions differ.
 float lightOn(const MapPoint& point) {
   if (point.normal.squaredNorm() < 0.5F) return 0.8F;
   const Eigen::Vector3f light = Eigen::Vector3f(0.35F, -0.5F, 0.8F).normalized();
@@ -153,7 +153,7 @@ void MapPicture::drawPath(const std::vector<Vector3d>& path) {
   }
 }
 
-/// Darkens pixels beyond an edge in depth (eye-dome lighting, Boucheny 2009), which shows shape where colours do not.
+/// Darkens the far side of depth edges (eye-dome lighting, Boucheny 2009), which shows shape without colour.
 void MapPicture::shadeEdges(std::vector<Pixel>& pixels) const {
   const std::vector<Pixel> before = pixels;
   for (int v = 1; v + 1 < view_.height; ++v)
@@ -204,7 +204,7 @@ PictureBox MapPicture::shownBox() const {
 
 urban_nav_registration::Picture MapPicture::finish(const PictureBox& box) const {
   std::vector<Pixel> pixels = pixels_;
-  for (int v = 1; v + 1 < view_.height; ++v)  // a pixel between two others shows what they do
+  for (int v = 1; v + 1 < view_.height; ++v)  // fills a pixel between two others
     for (int u = 1; u + 1 < view_.width; ++u) {
       const std::size_t i =
           static_cast<std::size_t>(v) * static_cast<std::size_t>(view_.width) + static_cast<std::size_t>(u);

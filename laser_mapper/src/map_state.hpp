@@ -11,7 +11,7 @@
 
 namespace laser_mapper {
 
-/// What the map of a session was made with, besides its chunks and poses.
+/// Inputs of a session's map besides its chunks and poses.
 struct MapState {
   Parameters parameters;
   std::vector<urban_nav_core::Matrix6d> covariances;  ///< RelativeCovariances::values()
@@ -21,7 +21,7 @@ struct MapState {
 constexpr const char* kMapState = "laser_mapper.map";
 
 std::string packMapState(MapState state);
-/// Returns the state; throws DataError if the bytes are damaged or of another version.
+/// Parses the state. Throws DataError if the bytes are damaged or of another version.
 MapState unpackMapState(std::string_view bytes);
 
 }  // namespace laser_mapper

@@ -13,9 +13,9 @@ using urban_nav_core::Scan;
 namespace {
 
 constexpr float kGate = 4.0F;           // standard deviations
-constexpr float kMaxBeamAngle = 0.03F;  // rad: beams further apart are no neighbours
+constexpr float kMaxBeamAngle = 0.03F;  // rad: beams further apart are not neighbours
 
-/// Angles between neighbouring beams, as their sines; 0 where a beam between them is missing.
+/// Returns the sines of the angles between adjacent beams; 0 where a beam between them is missing.
 std::vector<float> neighbourSines(const Scan& scan) {
   std::vector<float> sines(scan.beams.size(), 0.0F);
   for (std::size_t i = 0; i + 1 < scan.beams.size(); ++i) {
@@ -26,7 +26,7 @@ std::vector<float> neighbourSines(const Scan& scan) {
   for (const float sine : sines)
     if (sine > 0.0F) known.push_back(sine);
   if (known.empty()) return sines;
-  // The spacing of the device; not the smallest angle, since those of 3D LiDARs are rounded by their drivers.
+  // Spacing of the device; a low quantile instead of the minimum, since drivers of 3D LiDARs round angles.
   const auto spacing = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 10);
   std::nth_element(known.begin(), spacing, known.end());
   for (float& sine : sines)
@@ -34,13 +34,13 @@ std::vector<float> neighbourSines(const Scan& scan) {
   return sines;
 }
 
-/// Returns whether the range continues the surface of two beams: `near` beside it, `far` beyond that one, `sine`
-/// between any two of the three.
+/// Returns whether the range continues the surface of two beams: `near` is adjacent, `far` the next one, `sine` that of
+/// the angle between any two consecutive ones.
 bool continuesSurface(float range, float near, float far, float sine, const MixedPixelModel& model) {
   const float predicted_inverse = 2.0F * std::sqrt(1.0F - sine * sine) / near - 1.0F / far;
   if (!(predicted_inverse > 0.0F)) return false;
   const float predicted = 1.0F / predicted_inverse;
-  // An unevenness is seen longer the more the surface is inclined to the beam.
+  // Roughness has a larger effect on the range the more the surface is inclined to the beam.
   const float slope = std::abs(near - far) / (near * sine);
   const float scale = range * range / (near * near);
   const float noise = model.range_sigma * (1.0F + 2.3F * scale) + model.roughness * std::min(slope, 20.0F) * scale;

@@ -9,8 +9,8 @@ namespace laser_mapper {
 
 using MountedLaser = urban_nav_registration::LaserAt;
 
-/// Return the lasers of a session in the order of their frames: as the extrinsics state them; with the calibration that
-/// the session has adopted, if it has one. Throw DataError if that is damaged.
+/// Return the lasers of a session in the order of their frames: with the extrinsics, or with the adopted calibration of
+/// the session, if any. Throw DataError if the calibration is damaged.
 std::vector<MountedLaser> statedLasers(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
 std::vector<MountedLaser> mountedLasers(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
 

@@ -13,11 +13,11 @@ using urban_nav_core::Vector3d;
 namespace {
 
 constexpr float kUnreached = 1e9F;
-constexpr float kLargestStep = 0.25F;       // m of the ground, from cell to cell
-constexpr int kAround = 2;                  // cells, whose lowest ground an obstacle stands on
-constexpr std::uint16_t kFewestPoints = 2;  // of an obstacle
+constexpr float kLargestStep = 0.25F;       // m of ground height between adjacent cells
+constexpr int kAround = 2;                  // cells whose lowest ground is the base of an obstacle
+constexpr std::uint16_t kFewestPoints = 2;  // per obstacle
 constexpr double kBeamStep = 0.7;           // of a cell
-constexpr double kBelowGround = 0.3;        // m: a beam that is lower was reflected, or the ground is wrong
+constexpr double kBelowGround = 0.3;        // m: lower beams were reflected, or the ground is wrong
 constexpr std::uint8_t kObstacle = 0, kFree = 254, kUnknown = 205;
 
 }  // namespace
@@ -62,7 +62,7 @@ void OccupancyGrid::addSurface(const std::vector<MapPoint>& points) {
     if (const auto at = index(point.p.x(), point.p.y())) cells_[*at].low = std::min(cells_[*at].low, point.p.z());
 }
 
-/// The path is where the base was, which may ride above the ground, as the camera of a folder without extrinsics does.
+/// Lowers the path to the ground: base_link may be above it, such as the camera of a folder without extrinsics.
 void OccupancyGrid::lowerPath() {
   std::vector<float> below;
   for (const Cell& cell : cells_)
@@ -75,8 +75,8 @@ void OccupancyGrid::lowerPath() {
     if (cell.ground != kUnreached) cell.ground += *middle;
 }
 
-/// Breadth first from the path. A cell whose lowest point is within a step of the ground beside it is ground; any other
-/// takes over that ground: below a wall, an overhang or unseen land it continues.
+/// Breadth-first from the path. A cell whose lowest point is within a step of the adjacent ground is ground; any other
+/// cell inherits that ground, which continues below walls, overhangs and unobserved areas.
 void OccupancyGrid::findGround() {
   lowerPath();
   std::vector<std::size_t> front, next;
@@ -112,7 +112,7 @@ float OccupancyGrid::groundAround(std::size_t cell) const {
   return lowest;
 }
 
-/// Marks the cells that a beam passed low enough over the ground for no obstacle to have been there, but the last one.
+/// Marks the cells in which a beam was too low over the ground for an obstacle to be there, except the last one.
 void OccupancyGrid::followBeam(const Vector3d& from, const Vector3d& to) {
   const Vector3d along = to - from;
   const double length = along.head<2>().norm(), step = kBeamStep * model_.resolution;

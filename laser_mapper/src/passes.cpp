@@ -12,13 +12,13 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-constexpr double kPlace = 10.0;      // m, edge of the squares by which places are compared
+constexpr double kPlace = 10.0;      // m, edge of the squares for the comparison of places
 constexpr double kSamePlace = 10.0;  // m
-constexpr double kLeast = 40.0;      // m of travel between two visits
+constexpr double kLeast = 40.0;      // m of path between two visits
 constexpr double kStep = 1.0;        // m
 constexpr int kLastPass = 65535;
 
-/// Places that the current pass has visited.
+/// Places visited in the current pass.
 class VisitedPlaces {
  public:
   /// Returns whether a place was visited more than kLeast before `travelled`.
@@ -52,7 +52,7 @@ SessionPasses passesOfSession(const Trajectory& trajectory, int& pass) {
   if (trajectory.empty()) return passes;
   passes.begins.push_back({trajectory.front().stamp, static_cast<std::uint16_t>(pass)});
   VisitedPlaces visited;
-  double travelled = 0.0;  // in steps of kStep: noise of a robot that stands does not add up
+  double travelled = 0.0;  // in steps of kStep, so that noise at standstill does not accumulate
   Eigen::Vector3d last = trajectory.front().pose.t();
   visited.add(last, travelled);
   for (const urban_nav_core::StampedPose& pose : trajectory) {

@@ -14,9 +14,9 @@ using urban_nav_core::Vector3d;
 
 namespace {
 
-constexpr double kPointDistance = 8.0;  // m, of the points of the map from the robot, root mean square
+constexpr double kPointDistance = 8.0;  // m, root mean square distance of map points from the robot
 
-/// Returns the covariance of a frame that is carried along by another one, at `lever` from it.
+/// Returns the covariance of a frame rigidly attached to another one, at `lever` from it.
 Matrix6d carried(const Matrix6d& covariance, const Vector3d& lever) {
   Matrix6d jacobian = Matrix6d::Identity();  // rho + phi x lever
   jacobian(0, 4) = lever.z();
@@ -34,8 +34,8 @@ Matrix6d withPositiveEigenvalues(const Matrix6d& matrix) {
   return eigen.vectors * eigen.values.cwiseAbs().asDiagonal() * eigen.vectors.transpose();
 }
 
-/// Returns the information of a pose, and of points around it, about a motion of the whole map around a centre, `lever`
-/// away from the pose.
+/// Returns the information of a pose, with points around it, on a motion of the whole map about a centre at distance
+/// `lever` from the pose.
 Matrix6d alignmentWeight(const Vector3d& lever) {
   Matrix6d weight = Matrix6d::Identity();
   const Matrix3d cross = urban_nav_core::skew(lever);
@@ -48,9 +48,9 @@ Matrix6d alignmentWeight(const Vector3d& lever) {
 
 }  // namespace
 
-// An error of a pose is written as the motion of the whole map that it would be, around one centre. Along a chain of
-// independent steps these motions x_i are a random walk: cov(x_i, x_j) = P_min(i,j). The best alignment subtracts the
-// weighted mean of them, sum W_i x_i with sum W_i = I.
+// Errors of poses are expressed as equivalent motions x_i of the whole map about one centre. Along a chain of
+// independent steps they are a random walk: cov(x_i, x_j) = P_min(i,j). The best alignment subtracts their weighted
+// mean, sum W_i x_i with sum W_i = I.
 RelativeCovariances::RelativeCovariances(const urban_nav_core::Trajectory& T_map_base,
                                          const std::vector<Matrix6d>& T_first_base) {
   const std::size_t poses = std::min(T_map_base.size(), T_first_base.size());

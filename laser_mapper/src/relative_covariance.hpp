@@ -8,10 +8,10 @@
 
 namespace laser_mapper {
 
-/// Covariances of the poses of a session after the best alignment of all of them, in the axes of the map: what remains
-/// of the uncertainty when the map as a whole is moved onto the true one. Derived from those relative to the first
-/// pose, as if the steps of the trajectory were independent; where closures make a difference indefinite, the absolute
-/// values of its eigenvalues are used. Immutable, so thread-safe.
+/// Covariances of the poses of a session after the best alignment of all of them, in the axes of the map: the
+/// uncertainty that remains when the whole map is aligned with the truth. Derived from those relative to the first
+/// pose, assuming independent steps of the trajectory; where closures make a difference indefinite, the absolute values
+/// of its eigenvalues are used. Immutable, hence thread-safe.
 class RelativeCovariances {
  public:
   /// `T_first_base`: covariances, one per pose; poses after the last one count as exact.
@@ -21,7 +21,7 @@ class RelativeCovariances {
   explicit RelativeCovariances(std::vector<urban_nav_core::Matrix6d> values) : covariances_(std::move(values)) {}
   /// Returns the covariances of every kSpacing-th pose.
   const std::vector<urban_nav_core::Matrix6d>& values() const { return covariances_; }
-  /// Returns the covariance of a pose, by its index in the trajectory; of one near it, at most kSpacing away.
+  /// Returns the covariance of a pose, by its index in the trajectory: that of a pose at most kSpacing away.
   const urban_nav_core::Matrix6d& at(std::size_t pose) const;
 
  private:

@@ -16,9 +16,9 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-constexpr double kSampleStep = 1.0;  // m between positions that are compared
+constexpr double kSampleStep = 1.0;  // m between compared positions
 
-/// A position on the path of a pass.
+/// Position on the path of a pass.
 struct PathPoint {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();  ///< m, in the map
   StampNs chunk = 0;
@@ -26,7 +26,7 @@ struct PathPoint {
   std::uint16_t pass = 0;
 };
 
-/// Returns the positions at which the robot was at least kSampleStep further on, or in another chunk.
+/// Returns positions at least kSampleStep apart, or in different chunks.
 std::vector<PathPoint> samplePaths(const std::vector<const Trajectory*>& T_map_base) {
   const std::vector<SessionPasses> passes = findPasses(T_map_base);
   std::vector<PathPoint> points;

@@ -21,8 +21,8 @@ using urban_nav_store::NearPoints;
 namespace {
 
 constexpr std::size_t kBatch = 8;                           // chunks read before they are rendered, on all threads
-constexpr std::size_t kBatchBytes = std::size_t{96} << 20;  // of their sweeps
-constexpr double kLongestPause = 0.5;                       // s between scans of a laser that runs
+constexpr std::size_t kBatchBytes = std::size_t{96} << 20;  // bytes of their sweeps
+constexpr double kLongestPause = 0.5;                       // s between scans of a running laser
 
 }  // namespace
 
@@ -64,7 +64,7 @@ SessionChunks::SessionChunks(const Parameters& parameters, urban_nav_store::Stor
       silent_(lasers_.size(), 0.0) {
   for (const std::string& frame : store.scans().lasers(session))
     if (std::none_of(lasers_.begin(), lasers_.end(), [&](const auto& laser) { return laser.frame == frame; }))
-      warnings_.push_back("scans of " + frame + " are left out: its pose on the robot is unknown");
+      warnings_.push_back("scans of " + frame + " are ignored: its pose on the robot is unknown");
 }
 
 bool SessionChunks::isCurrent(const Stored& stored, const Task& task) const {
@@ -137,7 +137,7 @@ void SessionChunks::renderTasks(std::vector<Task>& tasks, const Stored& stored) 
 void SessionChunks::reportGaps() {
   for (std::size_t i = 0; i < lasers_.size(); ++i)
     if (silent_[i] > 0.0)
-      warnings_.push_back(lasers_[i].frame + " sent nothing during " +
+      warnings_.push_back(lasers_[i].frame + " has no scans during " +
                           std::to_string(static_cast<int>(std::ceil(silent_[i]))) + " s of the rendered time");
 }
 

@@ -12,11 +12,11 @@
 
 namespace laser_mapper {
 
-/// Returns the scans of a chunk, without the delays of their lasers.
+/// Returns the scans of a chunk, with the delays of their lasers removed.
 std::vector<LaserInput> readLasers(urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
                                    const std::vector<MountedLaser>& lasers, urban_nav_core::StampNs begin);
 
-/// Brings the chunks of one session up to date with its trajectory. Not thread-safe.
+/// Updates the chunks of one session for its trajectory. Not thread-safe.
 class SessionChunks {
  public:
   /// Returns the number of chunks that a trajectory covers.
@@ -25,7 +25,7 @@ class SessionChunks {
   SessionChunks(const Parameters& parameters, urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
                 const urban_nav_core::Trajectory& T_map_base);
 
-  /// Renders what is missing or has moved, removes what the trajectory no longer covers, and commits. `progress`:
+  /// Renders chunks that are missing or have moved, removes those outside the trajectory, and commits. `progress`:
   /// called with the number of chunks done.
   void update(const std::function<void(std::size_t)>& progress);
 
@@ -67,7 +67,7 @@ class SessionChunks {
   BeamCounts beams_;
   std::set<Tile> tiles_;
   std::vector<std::string> warnings_;
-  std::vector<urban_nav_core::StampNs> last_scan_;  ///< of each laser in this update; 0: none yet
+  std::vector<urban_nav_core::StampNs> last_scan_;  ///< of each laser in this update; 0: none
   std::vector<double> silent_;                      ///< s, of each laser: sum of its gaps
 };
 

@@ -13,10 +13,10 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr float kLidarWeight = 0.09F;      // a beam of 2 cm against one of 6 mm
-constexpr float kUnitWeightSigma = 0.01F;  // m: a point of stereo as certain as this has the weight 1
+constexpr float kLidarWeight = 0.09F;      // weight of a beam with 2 cm sigma relative to 6 mm
+constexpr float kUnitWeightSigma = 0.01F;  // m: standard deviation of a stereo point with weight 1
 
-/// Weight of one beam of a cell in the means of a cube.
+/// Returns the weight of one beam of a cell in the means of a voxel.
 float beamWeight(const MapCell& cell) {
   if (cell.laser == kStereo) {
     const float sigma = std::max(cell.range, 1e-3F);

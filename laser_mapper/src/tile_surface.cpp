@@ -18,16 +18,16 @@ namespace {
 
 constexpr float kFarRange = 20.0F;  // m: BeamNoise::far_factor applies beyond
 constexpr float kFewestPixels = 2.0F;
-constexpr float kStereoPatches = 4.0F;  // independent measurements in a neighbourhood: windows of matching overlap
+constexpr float kStereoPatches = 4.0F;  // independent measurements in a neighbourhood: matching windows overlap
 constexpr int kCoarsestStereoLevel = 2;
-constexpr float kLeastStereoCosine = 0.3F;  // grazing views: edges of the matched windows count too
-constexpr float kReach = 3.0F;              // standard deviations of a range: cubes nearer to a plane belong to it
+constexpr float kLeastStereoCosine = 0.3F;  // smaller at grazing views, where matching windows contain edges
+constexpr float kReach = 3.0F;              // standard deviations of a range: nearer voxels belong to a plane
 
 float rangeSigma(const BeamNoise& noise, float range) {
   return noise.range_sigma * (range > kFarRange ? noise.far_factor : 1.0F);
 }
 
-/// Returns how much of the distance to a plane noise explains, 0...1.
+/// Returns the share of the distance to a plane that noise explains, 0...1.
 float noiseShare(const LocalPlane& plane, float sigma) {
   return std::clamp(2.0F - plane.thickness * plane.thickness / (sigma * sigma), 0.0F, 1.0F);
 }
@@ -45,20 +45,20 @@ float measurementVariance(const BeamNoise& model, const MergedCell& cell, const 
   return variance;
 }
 
-/// One cube on its way to a point.
+/// Intermediate state of a voxel that becomes a point.
 struct SurfacePoint {
   MapPoint point;
   bool belongs_to_another = false;
 };
 
-/// Where lasers measured something, in cubes of four edges.
+/// Space measured by lasers, in cubes of four voxel edges.
 class SeenByLasers {
  public:
   SeenByLasers(const std::vector<MergedCell>& cells, const std::vector<MergedCell>& margin) : table_(cells.size() / 8) {
     for (const std::vector<MergedCell>* part : {&cells, &margin})
       for (const MergedCell& cell : *part) table_.insert(key(cell.cell));
   }
-  /// Returns whether something is in the cube of a cell or beside it.
+  /// Returns whether the cube of a cell or an adjacent one was measured.
   bool near(const Cell& cell) const {
     for (int dz = -1; dz <= 1; ++dz)
       for (int dy = -1; dy <= 1; ++dy)

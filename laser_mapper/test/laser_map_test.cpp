@@ -40,13 +40,13 @@ class LaserMapTest : public ::testing::Test {
     urban_nav_store::removeStore(path_);
   }
 
-  /// Leaves the scans alone in the store.
+  /// Removes everything but the scans from the store.
   void forgetMap() {
     store_->sessions().clear(kRoomSession);
     store_->sessions().put(kRoomSession, urban_nav_store::Extrinsic{"laser_left", testing_room::roomLaser()});
   }
 
-  /// The points, and what rendering did.
+  /// The points, with the statistics of rendering.
   std::vector<MapPoint> mapPoints(const Trajectory& trajectory, RenderStatistics* statistics = nullptr,
                                   const std::vector<Matrix6d>* covariances = nullptr) {
     LaserMap map(Parameters(), *store_, {{kRoomSession, &trajectory, covariances}});
@@ -88,7 +88,7 @@ TEST_F(LaserMapTest, PointsLieOnTheWallsAndNormalsPointIntoTheRoom) {
 }
 
 TEST_F(LaserMapTest, AWallBetweenTwoLayersOfCubesHasOneLayerOfPoints) {
-  std::map<std::pair<int, int>, int> columns;  // y = 6 m is a face of cubes of 5 cm
+  std::map<std::pair<int, int>, int> columns;  // y = 6 m is a face of voxels of 5 cm
   for (const MapPoint& point : mapPoints(trajectory_))
     if (std::abs(point.p.y() - 6.0F) < 0.03F && point.p.z() > 0.2F && point.p.z() < 3.8F)
       ++columns[{static_cast<int>(std::floor(point.p.x() / 0.05F)), static_cast<int>(std::floor(point.p.z() / 0.05F))}];
@@ -174,11 +174,11 @@ TEST_F(LaserMapTest, ALaserWithoutExtrinsicsAndAPauseAreReported) {
   RenderStatistics statistics;
   mapPoints(trajectory_, &statistics);
   ASSERT_EQ(statistics.warnings.size(), 1U);
-  EXPECT_EQ(statistics.warnings.front(), "scans of laser_right are left out: its pose on the robot is unknown");
+  EXPECT_EQ(statistics.warnings.front(), "scans of laser_right are ignored: its pose on the robot is unknown");
   store_->sessions().put(kRoomSession, urban_nav_store::Extrinsic{"laser_right", testing_room::roomLaser()});
   mapPoints(trajectory_, &statistics);
   ASSERT_EQ(statistics.warnings.size(), 1U);
-  EXPECT_EQ(statistics.warnings.front(), "laser_right sent nothing during 11 s of the rendered time");
+  EXPECT_EQ(statistics.warnings.front(), "laser_right has no scans during 11 s of the rendered time");
 }
 
 TEST_F(LaserMapTest, AStoredMapHasTheBytesOfTheRenderedOne) {

@@ -26,7 +26,7 @@ constexpr const char* kEffectSession = "0123456789abcdef0123";
 constexpr StampNs kLater = 30'000'000'000;
 constexpr double kDriveTime = 6.0;  // s
 
-/// A drive through the room, and the same 30 s later; once 0.3 s without a pose.
+/// Drive through the room, and the same drive 30 s later; with a gap of 0.3 s without poses.
 Trajectory twoDrives() {
   Trajectory both;
   for (const StampNs later : {StampNs{0}, kLater})
@@ -38,14 +38,14 @@ Trajectory twoDrives() {
   return both;
 }
 
-/// In the first drive there is a board of 0.5 m, 1 m before the wall, and beams at its edges end between both.
+/// In the first drive there is a board of 0.5 m, 1 m before the wall; beams at its edges end between both.
 void addBoard(Scan& scan) {
   const double t = urban_nav_core::secondsBetween(testing_room::kRoomStart, scan.stamp);
   if (t < 3.0 || t > 4.0) return;
   for (std::size_t i = 85; i < 95; ++i) scan.beams[i].range -= i == 85 || i == 94 ? 0.3F : 1.0F;
 }
 
-/// Points of dense stereo on the floor to the right, which no laser measures.
+/// Points of dense stereo on the floor to the right, where no laser measures.
 NearPoints floorPoints(StampNs stamp) {
   std::vector<NearPoints::Point> points;
   for (float x = 1.0F; x < 3.0F; x += 0.06F)

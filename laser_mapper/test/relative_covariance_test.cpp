@@ -33,7 +33,7 @@ Trajectory threeSides() {
   return made;
 }
 
-/// Error of a pose (rho, phi) because of the error of an earlier one.
+/// Returns the error of a pose (rho, phi) caused by the error of an earlier one.
 Vector6d carriedError(const Vector6d& error, const Vector3d& lever) {
   Vector6d carried = error;
   carried.head<3>() += error.tail<3>().cross(lever);
@@ -51,7 +51,7 @@ std::vector<Vector6d> drawnErrors(const Trajectory& trajectory, std::mt19937& ra
   return errors;
 }
 
-/// Takes the best motion of the whole map out of errors: of points 8 m to all sides of the poses.
+/// Subtracts the best motion of the whole map from errors, for points 8 m to all sides of the poses.
 void alignErrors(const Trajectory& trajectory, std::vector<Vector6d>& errors) {
   Matrix6d information = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();

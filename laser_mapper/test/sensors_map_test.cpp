@@ -32,7 +32,7 @@ Scene roomWithBox(double seconds) {
   };
 }
 
-/// Maps of the room of scanned_room.hpp by other sensors than planar lasers.
+/// Maps of the room of scanned_room.hpp by sensors other than planar lasers.
 class SensorsMap : public ::testing::Test {
  protected:
   SensorsMap() {

@@ -41,7 +41,7 @@ class StereoFill : public ::testing::Test {
     urban_nav_store::removeStore(path_);
   }
 
-  /// Points of the floor 1 to 4 m ahead, every fifth of them of no use.
+  /// Points of the floor 1 to 4 m ahead, every fifth of them invalid.
   void putFloor(std::size_t pose, float sigma = 0.02F) {
     std::mt19937 random(static_cast<unsigned>(pose));
     std::normal_distribution<float> noise(0.0F, 0.3F * sigma);

@@ -52,7 +52,7 @@ class LiveLaunch(LaunchCase):
     def test_the_paper_s_robot(self):
         self.launch("robot.launch")
         self.expect(lambda: self.reports("no images yet"), "diagnostics say what is missing")
-        self.expect(lambda: self.reports("/stereo/left/image_raw has not come yet"), "diagnostics name the topic that is missing")
+        self.expect(lambda: self.reports("/stereo/left/image_raw has not been received yet"), "diagnostics name the topic that is missing")
         self.expect(lambda: all(self.listener.connected("base_link", frame) for frame in ROBOT_FRAMES), lambda: str(self.listener.links))
         self.play(CAMERA_TOPICS)
         self.expect(lambda: len(self.listener.odometry) >= 10, "ten frames")

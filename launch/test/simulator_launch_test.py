@@ -142,7 +142,7 @@ class SimulatorLaunch(LaunchCase):
     def test_a_fault_that_there_is_not_is_named_with_those_there_are(self):
         self.launch("simulator.launch", fault="unplug:imu:0:1,melt:stereo:0:1", exit="true", vo="false")
         self.assertTrue(self.launched.ended(PATIENCE), self.launched.output())
-        self.assertIn('/simulator/fault melt:stereo:0:1: fault "melt": allowed drop, freeze', self.launched.output())
+        self.assertIn('/simulator/fault melt:stereo:0:1: fault "melt": expected drop, freeze', self.launched.output())
         self.launched = None
         self.listener.errors.clear()  # it says so as an error, too
 

@@ -30,7 +30,7 @@ const Table<Parameters>& table() {
            "Largest distance travelled between a pose and a keyframe that represents it.",
            "paper 3: places within 7.5 m", {"view_way"}, Audience::Experts},
           {"place_radius", &P::place_radius, "m", 9.0, 1.0, 100.0, {},
-           "Largest distance between two poses of one place: a candidate whose transform exceeds it is rejected.",
+           "Largest distance between two poses of one place: candidates with a longer transform are rejected.",
            "paper 3: places within 7.5 m, and a fifth for uncertainty"},
           {"gate", &P::gate, "", 5.0, 1.0, 1000.0, {},
            "Largest difference of a transform from odometry and from its neighbours, in standard deviations (root "

@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The default model on simulated drives whose seeds it was not made from, beside Table 5 of Newman et al. 2009: prints the tables of README.md.
+"""Evaluates the default model on simulated drives with other seeds than its training data: prints the tables of README.md, with Table 5 of
+Newman et al. 2009.
 
-    drives.py FOLDER     # for the bags: those that are there are not simulated again
+    drives.py FOLDER     # for the bags; existing ones are reused
 """
 import sys
 
 import simulated
 
-# World, seed, route, day, seconds. Day 3 is wet, day 4 in winter: the same places as on day 1.
+# World, seed, route, day, seconds. Days 3 (wet) and 4 (winter) visit the places of day 1.
 DRIVES = (("quad", 7, "loops", 1, 60), ("quad", 7, "loops", 3, 60), ("quad", 8, "gardens", 2, 60), ("begbroke", 7, "loops", 1, 60),
           ("begbroke", 7, "loops", 4, 60), ("street", 7, "loops", 1, 60), ("street", 8, "reversed", 2, 60))
 PAPER = {"grass": 97.3, "paved": 93.1, "dirt_path": 60.0, "textured_wall": 77.8, "smooth_wall": 60.4, "foliage": 61.7, "vehicle": 56.5}

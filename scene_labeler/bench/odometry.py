@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What visual odometry costs the default model, on simulated drives of 20 s with stereo: prints the figures of README.md.
+"""Compares the default model with true poses and with visual odometry, on simulated stereo drives of 20 s: prints the figures of README.md.
 
-    odometry.py FOLDER     # for the bags: those that are there are not simulated again
+    odometry.py FOLDER     # for the bags; existing ones are reused
 """
 import json
 import sys
@@ -13,7 +13,7 @@ import simulated
 
 
 def mean_f1(bag, *words):
-    """Mean F1 of the default model on a bag, %."""
+    """Returns the mean F1 of the default model on a bag, %."""
     with tempfile.NamedTemporaryFile(suffix=".json") as out:
         simulated.urban_nav("labels", "evaluate", "default", bag, *words, "--json", out.name)
         result = json.loads(Path(out.name).read_text())

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Trains on the drives of two simulated worlds and tries the third, each in turn: prints the table of README.md.
+"""Trains on the drives of two simulated worlds and evaluates on the third, for each of the three: prints the table of README.md.
 
-    other_worlds.py FOLDER     # for the bags and models: those that are there are not made again
+    other_worlds.py FOLDER     # for the bags and models; existing ones are reused
 """
 import sys
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Trains each classifier on the training parts of two labelled streets and compares it with their validation parts.
+"""Trains each classifier on the training part of two labelled data sets and evaluates it on their validation part.
 
     streets.py DATA URBAN_NAV    DATA: folder with kitti_0005 and oakland; URBAN_NAV: the command
 
@@ -35,7 +35,7 @@ def copy_scenes(source, target):
 
 
 def run(*words):
-    """Runs a command; returns the processor time that it took, s."""
+    """Runs a command; returns its processor time, s."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run([str(w) for w in words], capture_output=True, text=True, check=False)
     if done.returncode:
@@ -45,7 +45,7 @@ def run(*words):
 
 
 def try_default(command, work, sets):
-    """The default model, which has seen none of these streets."""
+    """Evaluates the default model, which is not trained on these data sets."""
     print("\n| set | paved, precision and recall, % | walls found, % | not unsure, % | of these right, % | calibration error |\n|---|---|---|---|---|---|")
     for name in sets:
         told = work / "default.json"

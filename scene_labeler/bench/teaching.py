@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Teaches a model of two simulated worlds the third one by 20 corrected superpixels, drawn from the wrong returns of two of its drives, and tries both
-models on its other drives: prints the table of README.md.
+"""Retrains a model of two simulated worlds with 20 corrected superpixels of the third, drawn from the wrong returns of two of its drives, and
+evaluates both models on its other drives: prints the table of README.md.
 
-    teaching.py FOLDER     # for the bags and models: those that are there are not made again
+    teaching.py FOLDER     # for the bags and models; existing ones are reused
 """
 import csv
 import random
@@ -14,12 +14,12 @@ from pathlib import Path
 import simulated
 
 CLICKS = 20
-NEIGHBOURS = 3  # beams on either side of a return that is clicked, which are wrong as well
-TEACHING_DRIVES = 2  # of each world; the others are for the trial
+NEIGHBOURS = 3  # beams from a clicked return to adjacent ones that must be wrong as well
+TEACHING_DRIVES = 2  # of each world; the others are for evaluation
 
 
 def wrong_returns(model, bag, names):
-    """Side, stamp, beam and true class of the returns that a model gets wrong, with their neighbours: what a person sees."""
+    """Returns bag, side, stamp, beam and true class of wrong returns between wrong ones of the same class, which a person would notice."""
     seen = []
     with tempfile.TemporaryDirectory() as out:
         simulated.urban_nav("labels", "apply", model, *simulated.with_poses([bag]), "-o", out)
@@ -36,7 +36,7 @@ def wrong_returns(model, bag, names):
 
 
 def taught(folder, world, model, bags, names):
-    """The model after the corrections."""
+    """Returns the model retrained with the corrections."""
     wrong = [one for bag in bags for one in wrong_returns(model, bag, names)]
     clicks = Path(folder) / f"clicks_{world}.csv"
     with open(clicks, "w", newline="") as file:

@@ -35,10 +35,10 @@ namespace scene_labeler {
 
 namespace {
 
-constexpr std::array<std::size_t, 2> kSideCameras = {4, 1};  // of the panoramic head, left and right
+constexpr std::array<std::size_t, 2> kSideCameras = {4, 1};  // cameras of the panoramic head on the left and right side
 constexpr double kCameraTimeout = 5.0;                       // s
 constexpr std::chrono::milliseconds kTrainingPoll{20};
-// Scans and images that arrive after the poses of their time are labelled with the next pose, or after this time.
+// Scans and images that arrive after the poses of their time are labelled with the next pose, or after this delay.
 constexpr std::chrono::milliseconds kPosePatience{500};
 
 struct CameraImage {
@@ -74,7 +74,7 @@ sensor_msgs::PointCloud2 toMessage(const std::vector<DriveReturn>& returns, cons
 
 }  // namespace
 
-/// Labels on topics: lasers, side cameras and odometry in, labels/image and labels/cloud out.
+/// Publishes labels/image and labels/cloud from lasers, side cameras and odometry.
 class SceneLabelerStage {
  public:
   static constexpr const char* name = "scene_labeler";
@@ -158,9 +158,9 @@ void SceneLabelerStage::advertiseServices() {
 std::string SceneLabelerStage::correct(const std::string& label) {
   const auto known = classFromName(label);
   if (!known) throw urban_nav_core::UserError("", "label = " + label, classNames());
-  if (!click_) throw urban_nav_core::UserError("", "no point was clicked", "the tool publish_point of rviz");
+  if (!click_) throw urban_nav_core::UserError("", "no clicked point", "a point of the tool publish_point of rviz");
   if (click_->header.frame_id != nodelet_.odom_frame)
-    throw urban_nav_core::UserError("", "the point that was clicked is in frame " + click_->header.frame_id,
+    throw urban_nav_core::UserError("", "the clicked point is in frame " + click_->header.frame_id,
                                     nodelet_.odom_frame + ", as fixed frame of rviz");
   const auto& p = click_->point;
   return labels_->correct(Eigen::Vector3d(p.x, p.y, p.z).cast<float>(), *known);
@@ -170,7 +170,7 @@ void SceneLabelerStage::adoptTaughtModel() {
   try {
     if (!labels_->adoptTaughtModel()) return;
     taught_fault_.clear();
-    node_.logInfo("labels by the taught model from here on; service save writes it");
+    node_.logInfo("labels are now from the retrained model; the service save writes it");
   } catch (const urban_nav_core::Error& error) {
     taught_fault_ = error.what();
     node_.logError(taught_fault_);
@@ -284,14 +284,14 @@ bool SceneLabelerStage::idle() {
   const urban_nav_live::StageReport now = report();
   node_.publishStatus(now.status, now.reason_name, labels_->newest());
   if (!labels_->teaching().isTraining()) return false;
-  std::this_thread::sleep_for(kTrainingPoll);  // progress and the taught model do not wait for the next input
+  std::this_thread::sleep_for(kTrainingPoll);  // polls progress and the retrained model without waiting for an input
   return true;
 }
 
 std::string SceneLabelerStage::reset() {
   labels_->reset();
   faults_.clear();
-  return "a new drive begins";
+  return "a new drive was begun";
 }
 
 urban_nav_live::StageReport SceneLabelerStage::report() const {
@@ -308,7 +308,7 @@ urban_nav_live::StageReport SceneLabelerStage::report() const {
   if (!faults_.empty()) set(3, "NoPlace", faults_.begin()->second);
   set(4, "NotTaught", taught_fault_);
   const LiveLabels::Counts counts = labels_->counts();
-  set(5, "UpsideDown", counts.upside_down_frames == 0 ? "" : "a side camera seems to be mounted upside down");
+  set(5, "UpsideDown", counts.upside_down_frames == 0 ? "" : "a side camera appears to be mounted upside down");
   report.add("scans", counts.scans);
   report.add("images", counts.images);
   report.add("poses of odometry", counts.poses);
@@ -316,7 +316,7 @@ urban_nav_live::StageReport SceneLabelerStage::report() const {
   report.add("frames labelled", counts.frames);
   report.add("of these with an image", counts.imaged_frames);
   report.add("of these with a class image", counts.class_frames);
-  report.add("of these in a kind of place that the model was not trained in", counts.new_place_frames);
+  report.add("of these in a kind of place without training data", counts.new_place_frames);
   report.add("black or saturated images", counts.blind_frames);
   report.add("drives", counts.drives);
   beams_.addTo(report);

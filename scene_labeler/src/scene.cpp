@@ -52,7 +52,7 @@ void projectScene(const Eigen::Matrix<double, 3, 4>& projection, Scene& scene) {
 
 bool isUsable(const cv::Mat& image) {
   constexpr int kBlack = 8, kSaturated = 250;  // of 255, brightest channel
-  constexpr int kStep = 7;                     // every 49th pixel is enough
+  constexpr int kStep = 7;                     // every 49th pixel is sufficient
   std::size_t seen = 0, usable = 0;
   for (int y = 0; y < image.rows; y += kStep)
     for (int x = 0; x < image.cols; x += kStep) {

@@ -14,7 +14,7 @@ using urban_nav_registration::ImagePoint;
 
 constexpr double kReturnSpacing = 0.05;   // m, between the returns of a scene
 constexpr double kBeamSpacing = 0.01745;  // rad: 1 deg, of the LMS291 (its data sheet)
-/// Laser and camera see a scene from different places and at different times.
+/// Laser and camera observe a scene from different positions and at different times.
 constexpr urban_nav_registration::DepthTolerance kSceneTolerance{0.5F, 0.5F, 0.1F};
 
 bool isInImage(const SceneView& view, std::size_t i) {

@@ -8,7 +8,7 @@
 
 namespace scene_labeler {
 
-/// Camera of an image and its place: p_cam = R p + t.
+/// Camera of an image with its pose: p_cam = R p + t.
 struct ViewCamera {
   urban_nav_core::Pinhole pinhole;
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();

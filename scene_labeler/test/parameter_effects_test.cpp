@@ -47,7 +47,7 @@ cv::Mat takeImage() {
   return image;
 }
 
-/// Labels a drive past a wall as the nodelet does. Another source sends the classes of each image a second later.
+/// Labels a drive past a wall like the nodelet. Another source sends the classes of each image a second later.
 std::string labelDrive(const Parameters& parameters) {
   std::string bytes;
   const auto take = [&bytes](const std::vector<DriveReturn>& returns, const SceneLabels& labels) {

@@ -4,12 +4,12 @@ import re
 from collections import Counter, defaultdict
 from pathlib import Path
 
-MOST_README_WORDS = 2500
+MOST_README_WORDS = 1200
 TABLE = Path(__file__).parent / "words.txt"
 
 
 def long_readmes(tree):
-    """A README has at most 2500 words."""
+    """A README has at most 1200 words."""
     for name, text in tree.text.items():
         if name.endswith("README.md") and len(text.split()) > MOST_README_WORDS:
             yield f"{name}: {len(text.split())} words"

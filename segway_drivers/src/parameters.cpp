@@ -21,7 +21,7 @@ const Table<Parameters>& table() {
            "observe; calibrate by turning on the spot.",
            "SICK telegram timing"},
           {"lms291.measuring_mode", &P::lms291_measuring_mode, "", 5, 0, 63, {},
-           "Measuring mode for decoding where the device cannot be asked: 0-2 mean 13 bits of range, 3-4 14, 5-6 15, "
+           "Measuring mode for decoding if the device cannot be queried: 0-2 mean 13 bits of range, 3-4 14, 5-6 15, "
            "15 16.",
            "New College log: 15 bits, mm"},
           {"lms291.configure", &P::lms291_configure, "", false, false, false, {},
@@ -32,15 +32,15 @@ const Table<Parameters>& table() {
            "Delay from the measurement to the first byte: 2.5 ms with orientation, 0.31 ms without.",
            "XSens MTi data sheet"},
           {"xsens_mti.mode", &P::xsens_mti_mode, "", 6, 0, 65535, {},
-           "Output mode of MTData where the device cannot be asked: bit 0 temperature, 1 calibrated data, 2 "
+           "Output mode of MTData if the device cannot be queried: bit 0 temperature, 1 calibrated data, 2 "
            "orientation, 11 status, 14 raw.",
            "XSens MT low-level communication"},
           {"xsens_mti.settings", &P::xsens_mti_settings, "", 1, 0, 65535, {},
-           "Output settings of MTData where the device cannot be asked: bits 0-1 sample counter, 2-3 kind of "
+           "Output settings of MTData if the device cannot be queried: bits 0-1 sample counter, 2-3 kind of "
            "orientation, 4-6 suppressed data, 8-9 number format.",
            "XSens MT low-level communication"},
           {"xsens_mti.rate", &P::xsens_mti_rate, "Hz", 100, 1, 400, {},
-           "Rate of measurements that the driver sets.", "paper, section 1.2"},
+           "Measurement rate set by the driver.", "paper, section 1.2"},
           {"segway_rmp.latency_ms", &P::segway_rmp_latency_ms, "ms", 0.0, 0.0, 1000.0, {},
            "Delay from the measurement to the first byte of a cycle.", "unknown"},
           {"segway_rmp.max_velocity", &P::segway_rmp_max_velocity, "m/s", 1.5, 0.0, 3.54, {},
@@ -58,14 +58,13 @@ const Table<Parameters>& table() {
           {"gps.latency_ms", &P::gps_latency_ms, "ms", 0.0, 0.0, 2000.0, {},
            "Delay from the instant of a fix to its first byte; 100 to 600 ms for old receivers.", "unknown"},
           {"gps.uere", &P::gps_uere, "m", 4.5, 0.1, 100.0, {},
-           "User equivalent range error, by which dilutions of precision are multiplied where the receiver states no "
-           "errors.",
+           "User equivalent range error, multiplied with the dilution of precision if the receiver reports no errors.",
            "GPS standard positioning service"},
           {"bumblebee2.latency_ms", &P::bumblebee2_latency_ms, "ms", 0.0, 0.0, 1000.0, {},
            "Delay from the middle of the exposure to the embedded time.", "unknown"},
           {"bumblebee2.pattern", &P::bumblebee2_pattern, "", "auto", false, false,
            {"auto", "RGGB", "GBRG", "GRBG", "BGGR", "YYYY"},
-           "Mosaic of each imager; YYYY is a monochrome camera; auto asks the camera, and takes BGGR for recorded "
+           "Mosaic of each imager; YYYY is a monochrome camera; auto: as reported by the camera, BGGR for recorded "
            "frames.",
            "register 0x1040"},
           {"bumblebee2.rectify", &P::bumblebee2_rectify, "", "none", false, false, {"none", "factory"},
@@ -80,14 +79,14 @@ const Table<Parameters>& table() {
           {"ladybug2.latency_ms", &P::ladybug2_latency_ms, "ms", 0.0, 0.0, 1000.0, {},
            "Delay from the middle of the exposure to the embedded time.", "unknown"},
           {"ladybug2.rate", &P::ladybug2_rate, "Hz", 3.0, 0.1, 30.0, {},
-           "Most frames a second that are passed on; the camera itself runs faster, with fresh exposure control.",
+           "Maximum rate of published frames; the camera itself runs faster, for a current exposure control.",
            "paper, section 1.2: 2 to 3 Hz"},
           {"ladybug2.quality", &P::ladybug2_quality, "", 60, 1, 100, {},
-           "Quality of the JPEGs that the automatic control begins with.", "register 0x1E80"},
+           "Initial JPEG quality of the automatic control.", "register 0x1E80"},
           {"ladybug2.camera_order", &P::ladybug2_camera_order, "", "forward", false, false, {"forward", "backward"},
            "Whether the directory of a frame lists cameras 0-5 or 5-0: cover one lens to check.", "programs disagree"},
           {"ladybug2.pattern", &P::ladybug2_pattern, "", "auto", false, false, {"auto", "RGGB", "GBRG", "GRBG", "BGGR"},
-           "Mosaic of each imager; auto takes it from the frame, BGGR where that is not readable.", "register 0x1040"},
+           "Mosaic of each imager; auto: from the frame, BGGR if that is not readable.", "register 0x1040"},
       });
   return rows;
 }

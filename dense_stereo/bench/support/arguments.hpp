@@ -9,9 +9,9 @@ namespace dense_stereo::bench {
 /// Command line of a bench: [-o FILE.json] [--own] [--step N] WORD...
 struct BenchArguments {
   std::string output;              ///< "" if none is given
-  int step = 1;                    ///< every which frame, at least 1
+  int step = 1;                    ///< interval of frames, at least 1
   bool own = false;                ///< only the package's methods, not its peers
-  std::vector<std::string> words;  ///< that follow
+  std::vector<std::string> words;  ///< remaining arguments
 };
 
 BenchArguments readBenchArguments(int argc, char** argv, int default_step);

@@ -10,33 +10,33 @@
 
 namespace dense_stereo::bench {
 
-/// A matcher under measurement: one of this package's methods or one of OpenCV's.
+/// Matcher under test: a method of this package or of OpenCV.
 class Peer {
  public:
   virtual ~Peer() = default;
   virtual std::string name() const = 0;
-  /// Grey images of equal size. OpenCV's answers have no variance: theirs is 0.
+  /// Grey images of equal size. OpenCV's results have no variance: it is 0.
   virtual const DisparityImage& match(const cv::Mat& left, const cv::Mat& right, int disparities) = 0;
 };
 
-/// Both methods of this package, StereoBM and StereoSGBM in all its modes, each with the options that its
-/// documentation suggests.
+/// Both methods of this package, and StereoBM and StereoSGBM in all modes, with the options suggested in their
+/// documentation.
 std::vector<std::unique_ptr<Peer>> allPeers();
 
 /// A pair with true disparities of the left image.
 struct TruePair {
   std::string name;
   cv::Mat left, right;  ///< grey
-  cv::Mat truth;        ///< CV_32F, px; below 0: not to be counted; infinite depth is 0
-  float step = 0.0F;    ///< px, of the values of `truth`; 0: it is exact
-  cv::Mat sky;          ///< CV_8U, nonzero where there is no surface; empty if there is none
+  cv::Mat truth;        ///< CV_32F, px; below 0: ignored; infinite depth is 0
+  float step = 0.0F;    ///< px, resolution of `truth`; 0: exact
+  cv::Mat sky;          ///< CV_8U, nonzero for sky; empty if unknown
   int disparities = 64;
 };
 
 /// Middlebury's teddy, cones and wood2 below a data folder.
 std::vector<TruePair> middleburyPairs(const std::string& data);
 /// Every `step`-th pair of a simulated session: FOLDER of `urban_nav simulate --folder FOLDER --views stereo -o BAG`,
-/// and its truth folder. Pixels that only one camera sees, or whose surface is farther than 47 m, are not counted.
+/// and its truth folder. Pixels visible in one camera only, or farther than 47 m, are ignored.
 std::vector<TruePair> simulatedPairs(const std::string& name, const std::string& folder, const std::string& truth,
                                      int step);
 

@@ -91,7 +91,7 @@ std::optional<TrueScene::Plane> fitGround(const TrueView& view) {
   return TrueScene::Plane{up, -up.dot(mean)};
 }
 
-/// Groups of connected cells: the number of the group of each cell.
+/// Returns the number of the connected group of each cell.
 std::map<GroundCell, int> connect(const std::set<GroundCell>& cells) {
   std::map<GroundCell, int> group;
   int groups = 0;

@@ -6,12 +6,12 @@
 
 namespace dense_stereo {
 
-/// Disparities of the left image, row by row, and the variance of each.
+/// Disparities of the left image, row by row, with the variance of each.
 struct DisparityImage {
   static constexpr float kInvalid = -1.0F;
 
   int width = 0, height = 0;
-  std::vector<float> disparity;  ///< px, u_left - u_right; `kInvalid` where the pixel has no answer
+  std::vector<float> disparity;  ///< px, u_left - u_right; `kInvalid` for unmatched pixels
   std::vector<float> variance;   ///< px^2, positive; 0 where the disparity is invalid
 
   std::size_t index(int u, int v) const {

@@ -10,20 +10,20 @@ namespace dense_stereo {
 template <typename T>
 class Padded;
 
-/// A pair as a matcher gets it. Images are those of the caller; `padded.hpp` of the sources defines their type.
+/// Input of a matcher. The caller owns the images; their type is defined in `padded.hpp` of the sources.
 struct MatcherInput {
   const Padded<std::uint8_t>& left;   ///< rows extended by extendRows
-  const Padded<std::uint8_t>& right;  ///< of the same size, in the exposure of the left image
+  const Padded<std::uint8_t>& right;  ///< of the same size, brightness adjusted to the left image
 };
 
-/// A method of dense matching. DenseStereo and NearSceneEstimator use the one that they are given, or the stage's own.
-/// Matchers are written in this package: the stage's own in `src/sgm`, others, each in a library of its own, in
-/// `reference`. Keeps its memory between pairs; the result of a pair does not depend on earlier pairs.
+/// Method of dense matching, used by DenseStereo and NearSceneEstimator. Matchers are part of this package: semi-global
+/// matching in `src/sgm`, others in `reference`, each in a separate library. Keeps its buffers between pairs; the
+/// result of a pair does not depend on earlier pairs.
 class Matcher {
  public:
   virtual ~Matcher() = default;
-  /// Sets the disparity and the variance of each pixel. Requires an `image` of the size of the pair without a valid
-  /// pixel.
+  /// Sets the disparity and the variance of each pixel. Requires an `image` of the size of the pair in which all pixels
+  /// are invalid.
   virtual void match(const MatcherInput& input, DisparityImage& image) = 0;
 };
 

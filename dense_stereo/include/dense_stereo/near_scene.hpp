@@ -12,19 +12,19 @@
 
 namespace dense_stereo {
 
-/// What one stereo pair shows of the robot's surroundings. Coordinates are those of the left optical frame.
+/// Robot's surroundings from one stereo pair. Coordinates are in the left optical frame.
 struct NearScene {
-  static constexpr int kStep = 2;  ///< px, between points in a row, and between rows with points
+  static constexpr int kStep = 2;  ///< px, between points along rows and columns
 
   StereoResult stereo;             ///< disparities of all pixels
   std::vector<DensePoint> points;  ///< within rangeLimit()
-  double near_share = 0.0;         ///< share of the answered pixels that lie within rangeLimit()
+  double near_share = 0.0;         ///< share of the matched pixels within rangeLimit()
   GroundPlane ground;
   std::vector<ObstaclePoint> obstacles;  ///< empty without a ground plane
 };
 
 /// Returns the range up to which points are used, m: `max_range`, or the range at which a disparity error of 0.1 px
-/// moves a point by 5 cm if that is farther (Matthies and Shafer 1987), as for cameras of a long baseline.
+/// displaces a point by 5 cm if that is farther (Matthies and Shafer 1987), as for cameras with a long baseline.
 double rangeLimit(double max_range, const urban_nav_core::StereoCamera& camera);
 
 /// Computes disparities, points, ground plane and obstacles of stereo pairs (Newman et al. 2009, section 6.2).
@@ -32,12 +32,12 @@ double rangeLimit(double max_range, const urban_nav_core::StereoCamera& camera);
 /// independent.
 class NearSceneEstimator {
  public:
-  /// `matcher`: null for the stage's own. Throws UserError like DenseStereo.
+  /// `matcher`: null for semi-global matching. Throws UserError like DenseStereo.
   NearSceneEstimator(const Parameters& parameters, const urban_nav_core::StereoCamera& camera,
                      std::unique_ptr<Matcher> matcher = nullptr);
 
-  /// Returns the scene of a rectified pair. `up`: opposite of gravity in the left optical frame, as far as it is known;
-  /// nullopt: the camera's own upright. The result lives until the next call.
+  /// Returns the scene of a rectified pair. `up`: opposite of gravity in the left optical frame; nullopt: the camera is
+  /// assumed upright. The result is valid until the next call.
   const NearScene& process(const urban_nav_core::StereoPair& pair, const std::optional<Eigen::Vector3d>& up = {});
 
  private:
@@ -48,7 +48,7 @@ class NearSceneEstimator {
   NearScene scene_;
 };
 
-/// Returns the most certain point of each cube of `spacing` metres, in the order of their pixels. Pure.
+/// Returns the point with the smallest variance in each cube of `spacing` metres, in the order of their pixels. Pure.
 std::vector<DensePoint> thinPoints(const std::vector<DensePoint>& points, double spacing);
 
 }  // namespace dense_stereo

@@ -7,9 +7,9 @@
 
 namespace dense_stereo {
 
-/// What a user may want to change, one member per row of table().
+/// Parameters of the stage, one member per row of table().
 struct Parameters {
-  std::string method;        // sgm, paper (DenseStereo needs to be given its matcher)
+  std::string method;        // sgm, paper (requires a matcher for DenseStereo)
   int disparities;           // px
   int min_component;         // px
   double max_sigma;          // px
@@ -24,7 +24,7 @@ struct Parameters {
   Parameters();
 };
 
-/// The only place where a default, a range, a unit or a sentence about a parameter is written.
+/// Returns the table, the only definition of defaults, ranges, units and descriptions of these parameters.
 const urban_nav_core::Table<Parameters>& table();
 
 }  // namespace dense_stereo

@@ -8,8 +8,8 @@
 
 namespace dense_stereo {
 
-/// Returns the local matcher of Newman et al. 2009, section 6.2, if `Parameters::method` names it ("paper"); null,
-/// which means the stage's own matcher, otherwise. For the constructors of DenseStereo and NearSceneEstimator.
+/// Returns the local matcher of Newman et al. 2009, section 6.2, if `Parameters::method` is "paper"; otherwise null,
+/// which selects semi-global matching in the constructors of DenseStereo and NearSceneEstimator.
 std::unique_ptr<Matcher> makePaperMatcher(const Parameters& parameters);
 
 }  // namespace dense_stereo

@@ -9,11 +9,11 @@
 namespace dense_stereo {
 
 /// Laplacian of Gaussian (Marr and Hildreth 1980): binomial smoothing over 5x5 pixels, then the sum of the four
-/// neighbours less four times the pixel. It takes away what differs between the exposures of two images. Result: 128
-/// plus four times that, limited to 65...191. Keeps its memory.
+/// neighbours minus four times the pixel. It removes differences in exposure. Result: 128 plus four times that, limited
+/// to 65...191. Keeps its buffers.
 class LogFilter {
  public:
-  /// Both images have rows extended by extendRows; so has the result.
+  /// Rows of both images must be extended by extendRows(), as are those of the result.
   void apply(const Padded<std::uint8_t>& image, Padded<std::uint8_t>& filtered);
 
  private:

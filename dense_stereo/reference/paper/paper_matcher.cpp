@@ -14,12 +14,12 @@ namespace {
 
 constexpr int kLanesOfWords = 8;
 constexpr double kLeastRise = 0.06;     // of the second minimum above the first, relative: flatter curves are ambiguous
-constexpr float kLeastSigmaPx = 0.12F;  // what parabolas through sums of absolute differences lock to whole pixels
+constexpr float kLeastSigmaPx = 0.12F;  // pixel locking of parabolas through sums of absolute differences
 constexpr float kSigmaPerFlatness = 0.06F;
 
 struct CurveMinimum {
   int disparity = 0, score = 0;
-  int rival = 65535;  ///< the least score at disparities that differ by more than one
+  int rival = 65535;  ///< smallest score at disparities that differ by more than one
 };
 
 CurveMinimum findMinimum(const std::uint16_t* scores, int disparities) {

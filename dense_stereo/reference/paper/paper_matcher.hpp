@@ -11,9 +11,9 @@
 
 namespace dense_stereo {
 
-/// The method `paper` (Newman et al. 2009, section 6.2): Laplacian of Gaussian, supporting windows, left/right check,
-/// flat correlation curves rejected, parabola through the minimum, small components removed. The variance follows
-/// from the parabola's curvature.
+/// Method `paper` (Newman et al. 2009, section 6.2): Laplacian of Gaussian, supporting windows, left/right check,
+/// rejection of flat correlation curves, parabola through the minimum, removal of small components. The variance is
+/// derived from the parabola's curvature.
 class PaperMatcher final : public Matcher {
  public:
   explicit PaperMatcher(const Parameters& parameters) : parameters_(parameters) {}

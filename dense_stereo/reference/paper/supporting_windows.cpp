@@ -51,7 +51,7 @@ ScoreRow SupportingWindows<V>::next() {
   return {scores_.data(), right_disparity_.data()};
 }
 
-/// Adds the absolute differences of a row to the columns, or takes them away.
+/// Adds the absolute differences of a row to the columns, or subtracts them.
 template <typename V>
 void SupportingWindows<V>::addRow(int v, bool is_added) {
   const std::uint8_t* left = left_->clampedRow(v);
@@ -74,7 +74,7 @@ const std::uint16_t* SupportingWindows<V>::computeSums(int v) const {
   return windows_.data() + row * static_cast<std::size_t>(width_) * static_cast<std::size_t>(disparities_);
 }
 
-/// Sums of the columns over 11 of them.
+/// Returns sums over 11 adjacent columns.
 template <typename V>
 void SupportingWindows<V>::sumAlong(int v) {
   std::uint16_t* sums = const_cast<std::uint16_t*>(computeSums(v));

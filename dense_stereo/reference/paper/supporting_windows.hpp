@@ -9,22 +9,22 @@
 
 namespace dense_stereo {
 
-/// Scores of one row of pixels at every disparity, and the winners of the right image in that row.
+/// Scores of one row of pixels at every disparity, and the best disparities of the right image in that row.
 struct ScoreRow {
   const std::uint16_t* scores;  ///< width x disparities; 65535 where the match lies outside the right image
   const std::uint16_t* right_disparity;
 };
 
-/// Sums of absolute differences over windows of 11x11 at every disparity, refined by supporting windows
-/// (Hirschmueller, Innocent, Garibaldi 2002): the window of the pixel and the best two of the four windows at its
-/// corners count. Rows are produced from the top down. Windows repeat the border of the image. V: Words, or
-/// PlainWords for the reference, with the same result. Not thread-safe.
+/// Sums of absolute differences over windows of 11x11 at every disparity, refined by supporting windows (Hirschmueller,
+/// Innocent, Garibaldi 2002): the window of the pixel plus the best two of the four windows at its corners. Rows are
+/// computed from top to bottom. Windows repeat the border of the image. V: Words, or PlainWords for the reference, with
+/// the same result. Not thread-safe.
 template <typename V>
 class SupportingWindows {
  public:
   /// `disparities`: a multiple of 16. Images are those of LogFilter, whose differences are at most 126.
   void begin(const Padded<std::uint8_t>& left, const Padded<std::uint8_t>& right, int disparities);
-  /// The next row; the result lives until the next call.
+  /// Returns the next row, valid until the next call.
   ScoreRow next();
 
  private:

@@ -15,8 +15,8 @@
 
 namespace dense_stereo {
 
-/// Eight unsigned 16-bit numbers, element by element: the reference for SseWords, and what other processors than
-/// x86-64 use. Sums wrap around.
+/// Eight unsigned 16-bit numbers, processed by element: the reference for SseWords, and the implementation for other
+/// processors than x86-64. Sums wrap around.
 struct PlainWords {
   std::array<std::uint16_t, 8> v;
 
@@ -31,7 +31,7 @@ struct PlainWords {
     a.v.fill(static_cast<std::uint16_t>(value));
     return a;
   }
-  /// |value - p[i]| of bytes.
+  /// Returns |value - p[i]| of bytes.
   static PlainWords differences(std::uint8_t value, const std::uint8_t* p) {
     PlainWords a;
     for (std::size_t i = 0; i < 8; ++i) a.v[i] = static_cast<std::uint16_t>(std::abs(value - p[i]));
@@ -55,7 +55,7 @@ struct PlainWords {
   friend PlainWords larger(const PlainWords& a, const PlainWords& b) {
     return each(a, b, [](int x, int y) { return std::max(x, y); });
   }
-  /// The first of the least elements: value, then position.
+  /// Returns the first minimum: value, then position.
   friend std::pair<int, int> findLeast(const PlainWords& a) {
     const auto at = std::min_element(a.v.begin(), a.v.end());
     return {*at, static_cast<int>(at - a.v.begin())};

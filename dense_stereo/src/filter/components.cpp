@@ -38,7 +38,7 @@ void SmallComponents::remove(Padded<std::uint8_t>& disparity, int least) {
   count_ = 0;
   for (int v = 0; v < disparity.height(); ++v) labelRow(disparity, v);
   for (std::int32_t label = count_ - 1; label >= 0; --label) {
-    const std::int32_t parent = parents_[static_cast<std::size_t>(label)];  // older, so still to come
+    const std::int32_t parent = parents_[static_cast<std::size_t>(label)];  // older, hence processed later
     if (parent != label) sizes_[static_cast<std::size_t>(parent)] += sizes_[static_cast<std::size_t>(label)];
   }
   for (int v = 0; v < disparity.height(); ++v) {

@@ -8,11 +8,11 @@
 
 namespace dense_stereo {
 
-/// Removes small patches: 8-connected components of pixels whose disparities differ by at most one from neighbour to
-/// neighbour. Keeps its memory. Not thread-safe.
+/// Removes small patches: 8-connected components of pixels whose disparities differ by at most one between neighbours.
+/// Keeps its buffers. Not thread-safe.
 class SmallComponents {
  public:
-  /// Components of fewer than `least` pixels become invalid (255).
+  /// Invalidates (255) components of fewer than `least` pixels.
   void remove(Padded<std::uint8_t>& disparity, int least);
 
  private:

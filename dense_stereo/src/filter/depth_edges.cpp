@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kLongestGap = 8;  // px
 
-/// More than one pixel, or half a pixel for each step across a gap.
+/// Returns whether disparities differ by more than one pixel, or half a pixel per step across a gap.
 bool isDepthJump(int a, int b, int gap) { return 2 * std::abs(a - b) > std::max(2, gap); }
 
 /// Marks jumps along one row.

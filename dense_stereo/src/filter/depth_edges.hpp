@@ -8,9 +8,9 @@
 
 namespace dense_stereo {
 
-/// Marks the pixels within a window of 9x9 of an edge of depth: of two neighbours in a row or column, with at most
-/// eight invalid pixels between them, whose disparities differ by more than a slanted surface explains. Keeps its
-/// memory. Not thread-safe.
+/// Marks the pixels within a window of 9x9 of a depth edge: two neighbours in a row or column, with at most eight
+/// invalid pixels between them, whose disparities differ by more than a slanted surface explains. Keeps its buffers.
+/// Not thread-safe.
 class DepthEdges {
  public:
   static constexpr int kRadius = 4;  ///< px
@@ -18,8 +18,8 @@ class DepthEdges {
   void mark(const Padded<std::uint8_t>& disparity, Padded<std::uint8_t>& edges);
 
  private:
-  std::vector<std::uint8_t> last_, age_;  ///< of each column: the last valid disparity, and rows since
-  Padded<std::uint8_t> wide_;             ///< marks, widened along the rows
+  std::vector<std::uint8_t> last_, age_;  ///< per column: the last valid disparity, and rows since then
+  Padded<std::uint8_t> wide_;             ///< marks, dilated along rows
 };
 
 }  // namespace dense_stereo

@@ -10,9 +10,9 @@ namespace dense_stereo {
 
 namespace {
 
-constexpr float kEnoughInformation = 28.0F;  // squared gradients for each unit of noise; images of noise alone give 22
-constexpr float kEnoughDistance = 50.0F;     // of the rival's cost
-constexpr float kRoundingNoise = 0.06F;      // grey levels^2, of two images with whole grey levels, smoothed
+constexpr float kEnoughInformation = 28.0F;  // squared gradients relative to noise; images of pure noise give 22
+constexpr float kEnoughDistance = 50.0F;     // of the cost of the second best disparity
+constexpr float kRoundingNoise = 0.06F;      // grey levels^2, of two smoothed images rounded to integers
 constexpr double kLeastShare = 0.15;         // of a window's pixels
 constexpr int kFlatRange = 4;                // grey levels in 3x3 px
 constexpr int kSaturated = 254;
@@ -53,7 +53,7 @@ void UnsupportedRegions::remove(const Padded<std::uint8_t>& left, const Winners&
   }
 }
 
-/// Grows removed_ by one pixel a round, through flat pixels beside outlines.
+/// Grows removed_ by one pixel per iteration, through flat pixels beside outlines.
 void UnsupportedRegions::growThroughFlat() {
   for (int round = 0; round < kOutlineReach; ++round) {
     for (int v = 0; v < removed_.height(); ++v) {
@@ -69,7 +69,7 @@ void UnsupportedRegions::growThroughFlat() {
   }
 }
 
-/// flat_ is 255 where the 3x3 pixels around are equal but for noise, outline_ where they differ much.
+/// flat_ is 255 where the surrounding 3x3 pixels are equal up to noise, outline_ where they differ much.
 void UnsupportedRegions::markFlat(const Padded<std::uint8_t>& left) {
   const Bytes range = Bytes::splat(kFlatRange), outline = Bytes::splat(kOutlineRange - 1);
   const Bytes zero = Bytes::splat(0), all = Bytes::splat(255);
@@ -90,7 +90,7 @@ void UnsupportedRegions::markFlat(const Padded<std::uint8_t>& left) {
   }
 }
 
-/// beside_ is 255 at flat pixels whose windows hold an outline.
+/// beside_ is 255 at flat pixels whose windows contain an outline.
 void UnsupportedRegions::markBesideOutlines() {
   const int height = outline_.height(), width = outline_.width();
   for (int v = 0; v < height; ++v)
@@ -110,7 +110,7 @@ void UnsupportedRegions::markBesideOutlines() {
     }
 }
 
-/// Evidence is 1 or 0; pixels without it count as flat from here on.
+/// Evidence is 1 or 0; pixels without it count as flat afterwards.
 void UnsupportedRegions::markEvidence(const Padded<std::uint8_t>& left, const Winners& winners,
                                       const DisparityField& field) {
   for (int v = 0; v < left.height(); ++v) {
@@ -134,7 +134,7 @@ void UnsupportedRegions::markEvidence(const Padded<std::uint8_t>& left, const Wi
   }
 }
 
-/// Sums of evidence_ over the window around each pixel, cut off at the borders.
+/// Computes sums of evidence_ over the window around each pixel, clipped at the borders.
 void UnsupportedRegions::sumWindows() {
   const int width = evidence_.width(), height = evidence_.height();
   std::fill(column_.begin(), column_.end(), std::uint16_t{0});
@@ -156,7 +156,7 @@ void UnsupportedRegions::sumWindows() {
   }
 }
 
-/// From here on evidence_ is 1 in the middle of windows without enough evidence.
+/// Afterwards evidence_ is 1 at the centres of windows without enough evidence.
 void UnsupportedRegions::markPoorWindows() {
   const int width = evidence_.width(), height = evidence_.height();
   for (int v = 0; v < height; ++v) {
@@ -170,8 +170,8 @@ void UnsupportedRegions::markPoorWindows() {
   }
 }
 
-/// Grows removed_ by a pixel over the blurred outline: to pixels whose brightness lies between those of their removed
-/// neighbour and of the pixel two further on, which differs much, and nearer to the former.
+/// Grows removed_ by a pixel across the blurred outline: to pixels whose brightness lies between that of their removed
+/// neighbour and that of the pixel two further on, which differs much, and is closer to the former.
 void UnsupportedRegions::growOverBlur(const Padded<std::uint8_t>& left) {
   const Bytes zero = Bytes::splat(0), all = Bytes::splat(255), contrast = Bytes::splat(kOutlineRange - 1),
               noise = Bytes::splat(kFlatRange);

@@ -21,16 +21,16 @@ constexpr std::size_t kLeastPoints = 200;
 constexpr int kSamples = 300;
 constexpr std::size_t kScoredPoints = 1500;
 constexpr double kLeastSupport = 0.1;      // of all points within range: a strip of ground between obstacles
-constexpr double kGroundBand = 0.3;        // m, above and below the plane: what may be ground
+constexpr double kGroundBand = 0.3;        // m, above and below the plane: candidates for ground
 constexpr double kLeastPlanarShare = 0.8;  // of the area in that band
-constexpr int kPlanCells = 128;            // along each side of the plan, over twice the range
+constexpr int kPlanCells = 128;            // along each side of the top view, over twice the range
 constexpr std::uint8_t kOnPlane = 1, kInBand = 2;
 constexpr double kDegrees = M_PI / 180.0;
-constexpr double kPointsOfAWindow = 80.0;  // whose disparities share their errors
+constexpr double kPointsOfAWindow = 80.0;  // points with correlated disparities
 constexpr double kFarMargin = 1.1;
 constexpr int kFitSteps = 5;
 
-/// d = a u + b v + c, with u and v from the principal point: a plane of space.
+/// Plane d = a u + b v + c, with u and v relative to the principal point; equivalent to a plane in space.
 using DisparityPlane = Eigen::Vector3d;
 
 struct SpacePlane {
@@ -42,7 +42,7 @@ Eigen::Vector3d computeNormal(const DisparityPlane& plane, const StereoCamera& c
   return {plane.x() * camera.left.fx, plane.y() * camera.left.fy, plane.z()};
 }
 
-/// The plane normal . p = fx baseline.
+/// Returns the plane normal . p = fx baseline.
 SpacePlane toSpace(const DisparityPlane& plane, const StereoCamera& camera) {
   const Eigen::Vector3d normal = computeNormal(plane, camera);
   const double length = std::max(normal.norm(), 1e-12);
@@ -53,7 +53,7 @@ Eigen::Vector3d toRow(const DensePoint& point, const StereoCamera& camera) {
   return {point.u - camera.left.cx, point.v - camera.left.cy, 1.0};
 }
 
-/// A small linear congruential generator (Knuth), the same on every platform.
+/// Small linear congruential generator (Knuth), equal on every platform.
 class SampleGenerator {
  public:
   explicit SampleGenerator(std::uint32_t seed) : state_(seed * 2654435761U + 12345U) {}
@@ -104,13 +104,14 @@ class GroundSearch {
     return space.height > 0.0 && space.up.dot(up_) > least_cosine_;
   }
 
-  /// Variance of the difference between a point's disparity and the plane's: noise, and roughness in metres of height.
+  /// Returns the variance of the difference between the disparities of a point and of the plane: noise, and roughness
+  /// of `height` metres.
   double toleratedVariance(const DensePoint& point, double height) const {
     const double rough = options_.tolerance * static_cast<double>(point.disparity) / std::max(height, 0.05);
     return static_cast<double>(point.variance) + rough * rough;
   }
 
-  /// Iteratively reweighted least squares with Tukey's weights; `information` is that of the last step.
+  /// Iteratively reweighted least squares with Tukey weights; `information` is that of the last iteration.
   DisparityPlane fit(DisparityPlane plane, Eigen::Matrix3d& information) const {
     double farthest = std::numeric_limits<double>::max();
     for (const DensePoint& point : points_) farthest = std::min(farthest, static_cast<double>(point.disparity));
@@ -121,7 +122,7 @@ class GroundSearch {
       for (const DensePoint& point : points_) {
         const Eigen::Vector3d row = toRow(point, camera_);
         if (row.dot(plane) < kFarMargin * farthest)
-          continue;  // points just beyond the range are missing by their noise
+          continue;  // points just beyond the range are missing depending on their noise
         const double residual = static_cast<double>(point.disparity) - row.dot(plane);
         const double squared = residual * residual / toleratedVariance(point, height) / 9.0;
         if (squared >= 1.0) continue;
@@ -135,9 +136,9 @@ class GroundSearch {
     return plane;
   }
 
-  /// The share of all points that is on the plane, and the share of the ground's area, which is what lies in a band
-  /// around the plane: cells of the plan that have a point on the plane, of those that have one in the band. What
-  /// stands upright covers few cells, however many pixels it has.
+  /// Returns the share of all points on the plane, and the share of the ground's area: cells of the top view with a
+  /// point on the plane, of those with a point in a band around the plane. Upright objects cover few cells, however
+  /// many pixels they have.
   std::pair<double, double> findSupport(const SpacePlane& plane) const {
     double farthest = 0.0, on = 0.0;
     for (const DensePoint& point : points_) farthest = std::max(farthest, static_cast<double>(point.p_cam.norm()));
@@ -166,7 +167,7 @@ class GroundSearch {
     return {on / static_cast<double>(points_.size()), all_cells > 0.0 ? on_cells / all_cells : 0.0};
   }
 
-  /// First-order covariance of (up, height) from that of the plane's three coefficients.
+  /// Returns the first-order covariance of (up, height) from that of the plane's three coefficients.
   Eigen::Matrix4d computeCovariance(const DisparityPlane& plane, const Eigen::Matrix3d& information) const {
     const Eigen::Matrix3d coefficients = kPointsOfAWindow * pointsPerPixel() * information.inverse();
     const Eigen::Vector3d normal = computeNormal(plane, camera_), scale(camera_.left.fx, camera_.left.fy, 1.0);
@@ -180,9 +181,9 @@ class GroundSearch {
   }
 
  private:
-  /// How densely the points sample the pixels: those of a window count once.
+  /// Returns the sampling density of the points: those of one window count as one measurement.
   double pointsPerPixel() const {
-    int step = 9;  // between neighbours of a row
+    int step = 9;  // between points of a row
     for (std::size_t i = 1; i < points_.size(); ++i)
       if (points_[i].v == points_[i - 1].v) step = std::min(step, std::max(points_[i].u - points_[i - 1].u, 1));
     return 1.0 / std::max(1, std::min(step * step, 80));
@@ -238,7 +239,7 @@ GroundPlane findGround(const std::vector<DensePoint>& points, const StereoCamera
   const auto [of_all, of_band] = search.findSupport(space);
   ground.support = of_band;
   if (of_all < kLeastSupport) {
-    ground.sentence = percent("the best plane holds ", of_all, " of the points within range");
+    ground.sentence = percent("the best plane contains ", of_all, " of the points within range");
     return ground;
   }
   ground.up = space.up;
@@ -246,7 +247,7 @@ GroundPlane findGround(const std::vector<DensePoint>& points, const StereoCamera
   ground.covariance = search.computeCovariance(plane, information);
   const bool is_planar = of_band >= kLeastPlanarShare;
   ground.verdict = is_planar ? GroundVerdict::Found : GroundVerdict::NotPlanar;
-  ground.sentence = is_planar ? "" : percent("the ground is no plane: ", of_band, " of it lies on the best one");
+  ground.sentence = is_planar ? "" : percent("the ground is not planar: ", of_band, " of it is on the best plane");
   return ground;
 }
 

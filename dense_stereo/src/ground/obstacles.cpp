@@ -12,7 +12,7 @@ namespace dense_stereo {
 
 namespace {
 
-// Points on top of an object of just that height scatter around it.
+// Points on top of an object of exactly that height scatter around it.
 constexpr double kHeightShare = 0.8;
 constexpr double kSureDeviations = 2.0;
 
@@ -39,7 +39,7 @@ std::vector<ObstaclePoint> findObstacles(const std::vector<DensePoint>& points, 
   std::vector<std::pair<std::int64_t, std::int64_t>> cells;
   for (const DensePoint& point : points) {
     const double height = heightAbove(ground, point.p_cam);
-    // An error of the disparity moves a point along its line of sight.
+    // A disparity error moves a point along its line of sight.
     const double sigma = std::sqrt(static_cast<double>(point.variance)) / static_cast<double>(point.disparity) *
                          std::abs(ground.up.dot(point.p_cam.cast<double>()));
     if (std::abs(height) < threshold + kSureDeviations * sigma || height > options.clearance) continue;

@@ -23,7 +23,7 @@ std::vector<DensePoint> makePoints(const DisparityImage& image, const StereoCame
 }
 
 Eigen::Matrix3d pointCovariance(const DensePoint& point, const StereoCamera& camera) {
-  constexpr double kDirectionVariance = 1.0 / 12.0;  // px^2, of a place within a pixel
+  constexpr double kDirectionVariance = 1.0 / 12.0;  // px^2, of a position within a pixel
   const Eigen::Vector3d p = point.p_cam.cast<double>();
   const double z = p.z(), d = static_cast<double>(point.disparity);
   const Eigen::Vector3d along = p / d;  // dp/dd is -p/d

@@ -22,7 +22,7 @@ void GravityFilter::add(const urban_nav_core::SpecificForce& sample) {
     force_ = sample.force;
   } else {
     const double dt = 1e-9 * static_cast<double>(sample.stamp - *last_);
-    force_ += (1.0 - std::exp(-dt)) * (sample.force - force_);  // time constant: 1 s
+    force_ += (1.0 - std::exp(-dt)) * (sample.force - force_);  // time constant 1 s
   }
   last_ = sample.stamp;
 }

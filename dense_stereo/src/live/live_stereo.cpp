@@ -46,7 +46,7 @@ urban_nav_live::StageReport LiveStereo::report() const {
   report.status = status_;
   report.reason_name = toString(static_cast<Reason>(status_.reason));
   if (!isRunning()) {
-    report.status.health = urban_nav_core::Health::Ok;  // of no pair; the warning counts
+    report.status.health = urban_nav_core::Health::Ok;  // without a pair; the warning determines the level
     report.summary = fault_.empty() ? waiting_ : fault_;
     report.is_warning = true;
   }

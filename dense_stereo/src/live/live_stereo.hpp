@@ -12,23 +12,23 @@
 
 namespace dense_stereo {
 
-/// Dense stereo of a live robot: one estimator for each session, and figures for the operator. Used by one thread.
+/// Dense stereo of a live robot: one estimator per session, with statistics for the operator. Used by one thread.
 class LiveStereo {
  public:
-  /// Throws UserError if `Parameters::method` names another method than the stage's own.
+  /// Throws UserError if `Parameters::method` is not semi-global matching.
   explicit LiveStereo(const Parameters& parameters);
 
   /// Begins a session. `T_base_left`: pose of the rectified left camera; `is_mounting_known`: false if it is assumed.
   void begin(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left,
              bool is_mounting_known);
   void addForce(const urban_nav_core::SpecificForce& sample) { gravity_.add(sample); }
-  /// Processes a pair. Requires a running session. The result lives until the next call.
+  /// Processes a pair. Requires a running session. The result is valid until the next call.
   const NearScene& process(const urban_nav_core::StereoPair& pair);
   /// Counts a pair that is not processed, because no topic has a subscriber.
   void skip() { ++skipped_; }
   /// Ends the session. `why`: for the report.
   void end(const std::string& why);
-  /// Sets the reason for which no session can begin; empty: none.
+  /// Sets the reason why no session can begin; empty: none.
   void setFault(const std::string& fault) { fault_ = fault; }
 
   bool isRunning() const { return estimator_ != nullptr; }

@@ -7,7 +7,7 @@ using urban_nav_core::Table;
 
 NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
 
-// clang-format would give each of the columns a line.
+// clang-format would put each column on its own line.
 // clang-format off
 const Table<NodeletParameters>& nodeletTable() {
   using P = NodeletParameters;
@@ -18,7 +18,7 @@ const Table<NodeletParameters>& nodeletTable() {
               {"always", &P::always, "", false, false, true, {},
                "Whether pairs are matched even if no topic has a subscriber.", "stereo_image_proc"},
               {"gravity", &P::gravity, "", true, false, true, {},
-               "Whether imu/data, where it arrives, tells the direction of gravity to the search for the ground.",
+               "Whether the search for the ground uses the direction of gravity from imu/data, if received.",
                "section 6.2"},
           },
           20));

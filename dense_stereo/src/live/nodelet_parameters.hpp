@@ -6,7 +6,7 @@
 
 namespace dense_stereo {
 
-/// Parameters of the nodelet apart from those of the stage (dense_stereo/parameters.hpp). One member per row of
+/// Parameters of the nodelet except those of the stage (dense_stereo/parameters.hpp). One member per row of
 /// nodeletTable().
 struct NodeletParameters : urban_nav_live::StereoInputParameters {
   bool always;

@@ -13,8 +13,8 @@
 
 namespace dense_stereo {
 
-/// Four single-precision numbers, element by element: the reference for SseFloats, and what other processors than
-/// x86-64 use. Every operation rounds as IEEE 754 says, so both give the same bits.
+/// Four single-precision numbers, processed by element: the reference for SseFloats, and the implementation for other
+/// processors than x86-64. Every operation is rounded by IEEE 754, so both are bit-identical.
 struct PlainFloats {
   std::array<float, 4> v;
 
@@ -45,7 +45,7 @@ struct PlainFloats {
   friend PlainFloats smaller(const PlainFloats& a, const PlainFloats& b) {
     return each(a, b, [](float x, float y) { return x < y ? x : y; });
   }
-  /// a where x < y, else b.
+  /// Returns a where x < y, else b.
   friend PlainFloats whereLess(const PlainFloats& x, const PlainFloats& y, const PlainFloats& a, const PlainFloats& b) {
     PlainFloats r{};
     for (std::size_t i = 0; i < 4; ++i) r.v[i] = x.v[i] < y.v[i] ? a.v[i] : b.v[i];
@@ -55,7 +55,7 @@ struct PlainFloats {
     return each(a, a, [](float x, float) { return std::abs(x); });
   }
   friend float sumLanes(const PlainFloats& a) { return (a.v[0] + a.v[2]) + (a.v[1] + a.v[3]); }
-  /// First and second number of the pairs `at`, whole numbers.
+  /// Returns first and second number of the pairs at the integer indices `at`.
   static std::pair<PlainFloats, PlainFloats> gatherPairs(const float* pairs, const PlainFloats& at) {
     std::pair<PlainFloats, PlainFloats> r;
     for (std::size_t i = 0; i < 4; ++i) {

@@ -4,7 +4,7 @@
 namespace dense_stereo {
 
 /// Sums over a window of pixels that each contribute one equation, gradient (disparity + a u + b v) + brightness =
-/// value, with u and v from the centre.
+/// value, with u and v relative to the centre.
 template <typename F>
 struct PlaneSums {
   F gg, ggu, ggv, gguu, gguv, ggvv;  ///< of gradient^2
@@ -16,21 +16,21 @@ struct PlaneSums {
 
 template <typename F>
 struct PlaneFit {
-  F disparity;    ///< of the plane at the centre
-  F slope_u;      ///< of the plane, px per column
-  F slope_v;      ///< of the plane, px per row
-  F information;  ///< inverse of its variance, in units of that of a value
+  F disparity;    ///< at the centre
+  F slope_u;      ///< px per column
+  F slope_v;      ///< px per row
+  F information;  ///< inverse variance of the disparity, in units of that of a value
 };
 
 inline float larger(float a, float b) { return a > b ? a : b; }
 
-/// Least squares for disparity, a, b and brightness. `disparity_prior`: weight of a measurement of `prior_disparity`
-/// at the centre. `slope_prior`: weight of slopes of zero in px^2, relative to the sum of squared gradients; it keeps
-/// windows with texture along one line solvable.
+/// Least squares for disparity, a, b and brightness. `disparity_prior`: weight of a measurement of `prior_disparity` at
+/// the centre. `slope_prior`: weight of zero slopes in px^2, relative to the sum of squared gradients; it keeps windows
+/// with texture along one line solvable.
 template <typename F>
 PlaneFit<F> fitPlane(const PlaneSums<F>& s, F prior_disparity, F disparity_prior, F slope_prior, F tiny) {
   const F n = larger(s.count, tiny);
-  const F mean_g = s.g / n, mean_gu = s.gu / n, mean_gv = s.gv / n;  // the brightness is eliminated first
+  const F mean_g = s.g / n, mean_gu = s.gu / n, mean_gv = s.gv / n;  // brightness is eliminated first
   const F prior = s.gg * slope_prior + tiny;
   const F uu = s.gguu - s.gu * mean_gu + prior, vv = s.ggvv - s.gv * mean_gv + prior, uv = s.gguv - s.gu * mean_gv;
   const F cu = s.ggu - s.g * mean_gu, cv = s.ggv - s.g * mean_gv;

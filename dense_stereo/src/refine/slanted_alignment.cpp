@@ -13,14 +13,14 @@ namespace {
 
 constexpr float kSlopePrior = 0.05F;
 constexpr float kTiny = 1e-6F;
-constexpr float kPriorWeight = 1.0F / (0.5F * 0.5F);  // px^-2: how far winners are off
+constexpr float kPriorWeight = 1.0F / (0.5F * 0.5F);  // px^-2: error of the integer disparities
 constexpr float kLeastNoise = 1.0F;                   // grey levels^2
-constexpr float kLongestStep = 1.0F;                  // px; beyond it the linearisation means nothing
-// Pixels of one surface near an edge of depth: closer than this to the centre's disparity.
+constexpr float kLongestStep = 1.0F;                  // px; the linearisation is invalid beyond it
+// Largest difference from the centre's disparity of pixels of the same surface, near a depth edge.
 constexpr float kSameSurface = 1.3F;
 constexpr int kEdgeRadius = 3;
 
-/// Binomial 1 2 1 along a row, which takes away what the derivative would misjudge.
+/// Binomial filter 1 2 1 along a row, which removes frequencies for which the derivative is inaccurate.
 void smoothRow(const std::uint8_t* pixels, int width, float gain, float offset, float* out) {
   const float quarter = 0.25F * gain;
   constexpr int kMargin = 16;
@@ -28,8 +28,8 @@ void smoothRow(const std::uint8_t* pixels, int width, float gain, float offset, 
     out[u] = quarter * static_cast<float>(pixels[u - 1] + 2 * pixels[u] + pixels[u + 1]) + offset;
 }
 
-/// Derivative of fourth order: central differences alone are a fifth too small at wavelengths of six pixels, and
-/// steps as much too long.
+/// Fourth-order derivative: central differences are a fifth too small at wavelengths of six pixels, which makes steps
+/// too long by the same factor.
 float slopeAt(const float* row, int u) {
   return (8.0F * (row[u + 1] - row[u - 1]) - (row[u + 2] - row[u - 2])) * (1.0F / 12.0F);
 }
@@ -39,7 +39,7 @@ struct Moments {
   V sum, first, second;
 };
 
-/// Sums over -4...4 with weights 1, k, k^2 of elements `stride` apart.
+/// Returns sums over -4...4 with weights 1, k, k^2 of elements `stride` apart.
 template <typename V, typename At>
 [[gnu::always_inline]] inline Moments<V> computeMoments(const At& at) {
   V sum = at(0), first = V::splat(0.0F), second = V::splat(0.0F);
@@ -53,7 +53,7 @@ template <typename V, typename At>
   return {sum, first, second};
 }
 
-/// Sums over -4.5, -3.5 ... 4.5, of which at(k) is the element at k - 0.5, with weights 1, k - 0.5, (k - 0.5)^2.
+/// Returns sums over -4.5, -3.5 ... 4.5 with weights 1, k - 0.5, (k - 0.5)^2; at(k) is the element at k - 0.5.
 template <typename V, typename At>
 [[gnu::always_inline]] inline Moments<V> momentsDown(const At& at) {
   V sum = V::splat(0.0F), first = sum, second = sum;
@@ -169,7 +169,7 @@ void SlantedAlignment<V>::measureRow(const std::uint8_t* left, const std::uint8_
     (valid * difference * difference).store(channel(v, Square) + u);
     valid.store(channel(v, Valid) + u);
   }
-  for (Channel c : {G, GG, Q, GQ, Difference, Square, Valid})  // the last vector may have passed the end
+  for (Channel c : {G, GG, Q, GQ, Difference, Square, Valid})  // the last vector may extend beyond the end
     std::fill(channel(v, c) + width_, channel(v, c) + width_ + 2 * kRadius, 0.0F);
 }
 
@@ -231,7 +231,7 @@ void SlantedAlignment<V>::solveRows(int v, const Padded<float>& start, Disparity
   }
 }
 
-/// Pixels of a block of 2x2 that lie on one surface share a plane.
+/// Pixels of a block of 2x2 on one surface share a plane.
 template <typename V>
 void SlantedAlignment<V>::solveEdges(int v, const Padded<std::uint8_t>& edges, const Padded<float>& start,
                                      DisparityField& result) {
@@ -263,8 +263,8 @@ void SlantedAlignment<V>::solveEdges(int v, const Padded<std::uint8_t>& edges, c
   }
 }
 
-/// The plane through the pixels of a window of 8x8 whose disparities are close to `disparity`; (u, v) is left and
-/// above of its centre.
+/// Fits the plane to the pixels of a window of 8x8 whose disparities are close to `disparity`; (u, v) is left of and
+/// above its centre.
 template <typename V>
 typename SlantedAlignment<V>::PlaneAtEdge SlantedAlignment<V>::fitAtEdge(const Lines& lines, int u, int v,
                                                                          float disparity,

@@ -28,7 +28,7 @@ double nearShare(const DisparityImage& image, std::size_t points) {
   return answered == 0 ? 0.0 : static_cast<double>(points) / static_cast<double>(answered);
 }
 
-/// Number of the cube that holds a point: 21 bits an axis.
+/// Returns the number of the cube that contains a point: 21 bits per axis.
 std::uint64_t cubeNumber(const Eigen::Vector3f& p, double spacing) {
   std::uint64_t number = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -38,7 +38,7 @@ std::uint64_t cubeNumber(const Eigen::Vector3f& p, double spacing) {
   return number;
 }
 
-/// Standard deviation of the depth, up to a common factor.
+/// Returns the standard deviation of the depth, up to a common factor.
 double depthSigma(const DensePoint& point) {
   return std::sqrt(static_cast<double>(point.variance)) * static_cast<double>(point.p_cam.z()) /
          static_cast<double>(point.disparity);

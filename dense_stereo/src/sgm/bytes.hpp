@@ -14,8 +14,8 @@
 
 namespace dense_stereo {
 
-/// Sixteen unsigned bytes, element by element: the reference for SseBytes, and what other processors than x86-64 use.
-/// Arithmetic saturates at 0 and 255. All operations are pure.
+/// Sixteen unsigned bytes, processed by element: the reference for SseBytes, and the implementation for other
+/// processors than x86-64. Arithmetic saturates at 0 and 255. All operations are pure.
 struct PlainBytes {
   std::array<std::uint8_t, 16> v;
 
@@ -54,30 +54,30 @@ struct PlainBytes {
   friend PlainBytes either(const PlainBytes& a, const PlainBytes& b) {
     return each(a, b, [](int x, int y) { return x | y; });
   }
-  /// The mean, rounded up.
+  /// Returns the mean, rounded up.
   friend PlainBytes average(const PlainBytes& a, const PlainBytes& b) {
     return each(a, b, [](int x, int y) { return (x + y + 1) / 2; });
   }
   friend PlainBytes absoluteDifference(const PlainBytes& a, const PlainBytes& b) {
     return each(a, b, [](int x, int y) { return std::abs(x - y); });
   }
-  /// table[index] of indices 0...15.
+  /// Returns table[index] for indices 0...15.
   friend PlainBytes lookUp(const PlainBytes& table, const PlainBytes& index) {
     PlainBytes r;
     for (std::size_t i = 0; i < 16; ++i) r.v[i] = table.v[index.v[i] & 15];
     return r;
   }
-  /// 255 where a == b, else 0.
+  /// Returns 255 where a == b, else 0.
   friend PlainBytes equal(const PlainBytes& a, const PlainBytes& b) {
     return each(a, b, [](int x, int y) { return x == y ? 255 : 0; });
   }
-  /// a where `mask` is 255, b where it is 0.
+  /// Returns a where `mask` is 255, b where it is 0.
   friend PlainBytes select(const PlainBytes& mask, const PlainBytes& a, const PlainBytes& b) {
     PlainBytes r;
     for (std::size_t i = 0; i < 16; ++i) r.v[i] = mask.v[i] != 0 ? a.v[i] : b.v[i];
     return r;
   }
-  /// One bit for each byte, the highest of each.
+  /// Returns the most significant bit of each byte.
   friend unsigned bits(const PlainBytes& a) {
     unsigned r = 0;
     for (unsigned i = 0; i < 16; ++i) r |= static_cast<unsigned>(a.v[i] >> 7) << i;

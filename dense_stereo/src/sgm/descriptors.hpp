@@ -9,7 +9,7 @@
 
 namespace dense_stereo {
 
-/// What the matching cost compares at each pixel of a row: 32 bits of two census transforms and the horizontal
+/// Data compared by the matching cost at each pixel of a row: 32 bits of two census transforms and the horizontal
 /// gradient.
 ///
 /// Census (Zabih and Woodfill 1994): 24 bits compare pixels that are opposite each other in a window of 7x7
@@ -20,7 +20,7 @@ struct DescriptorRow {
   static constexpr int kNibbleCount = 8;
   static constexpr int kBits = 4 * kNibbleCount;
 
-  /// Memory for rows of `width` pixels; the right image's row is read up to `disparities` elements past its end.
+  /// Allocates for rows of `width` pixels; the right image's row is read up to `disparities` elements past its end.
   void resize(int width, int disparities);
 
   std::array<std::uint8_t*, kNibbleCount> nibbles{};
@@ -35,12 +35,12 @@ enum class PixelOrder {
   Backward,  ///< element x describes pixel width - 1 - x: disparities grow along the row
 };
 
-/// Describes row v of an image whose rows have been extended by at least 16 pixels to both sides. Rows outside the
-/// image repeat the border.
+/// Computes the descriptors of row v of an image whose rows have been extended by at least 16 pixels on both sides.
+/// Rows outside the image repeat the border.
 template <typename V>
 void describeRow(const Padded<std::uint8_t>& image, int v, PixelOrder order, DescriptorRow& row);
 
-/// Extends each row to both sides by repeating its border pixels.
+/// Extends each row on both sides by repeating its border pixels.
 void extendRows(Padded<std::uint8_t>& image);
 
 }  // namespace dense_stereo

@@ -13,12 +13,12 @@ namespace dense_stereo {
 namespace {
 
 constexpr int kLanes = 16;
-constexpr std::uint8_t kInfinite = 255;  // the cost of disparities outside the range
+constexpr std::uint8_t kInfinite = 255;  // cost of disparities outside the range
 
 alignas(16) constexpr std::uint8_t kOnesInNibble[kLanes] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
 alignas(16) constexpr std::uint8_t kCounting[kLanes] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
-/// What a path brings from the pixel before: its costs with `kInfinite` on both sides, their least, and P2.
+/// State of a path at the previous pixel: its costs with `kInfinite` on both sides, their minimum, and P2.
 template <typename V>
 struct PathStep {
   const std::uint8_t* before;
@@ -31,7 +31,8 @@ struct PathStep {
         with_jump(V::splat(std::min(least_cost + jump, 255))),
         step(V::splat(step_penalty)) {}
 
-  /// Costs of sixteen disparities at this pixel (Hirschmueller 2008, eq. 13), least cost before subtracted.
+  /// Returns the path costs of sixteen disparities at this pixel (Hirschmueller 2008, eq. 13), minus the previous
+  /// minimum.
   V extend(int d, V cost) {
     const V stay = V::load(before + d), move = add(min(V::load(before + d - 1), V::load(before + d + 1)), step);
     const V result = add(subtract(min(min(stay, move), with_jump), least), cost);
@@ -82,7 +83,7 @@ void SemiGlobal<V>::match(const Padded<std::uint8_t>& left, const Padded<std::ui
   for (std::size_t u = 0; u < static_cast<std::size_t>(width_); ++u)
     std::memset(above_.data() + kLanes + u * stride, 0, static_cast<std::size_t>(disparities_));
   std::fill(above_least_.begin(), above_least_.end(), std::uint8_t{0});
-  switch (disparities_) {  // the usual counts have loops of known length
+  switch (disparities_) {  // common sizes have loops of constant length
     case 64: return matchRows<4>(left, right, winners);
     case 128: return matchRows<8>(left, right, winners);
     default: return matchRows<0>(left, right, winners);
@@ -112,7 +113,7 @@ void SemiGlobal<V>::sweepRight(const std::uint8_t* pixels, const std::uint8_t* p
   std::memset(before, 0, static_cast<std::size_t>(disparities));
   int least_before = 0;
   for (int u = 0; u < width_; ++u) {
-    const int shift = width_ - 1 - u;  // of the right image's row, which runs backwards: disparity 0
+    const int shift = width_ - 1 - u;  // of the right image's row, which is reversed: disparity 0
     std::uint8_t* costs = costs_.data() + static_cast<std::ptrdiff_t>(u) * disparities;
     const V gradient = V::splat(left_row_.gradient[u]);
     V nibbles[DescriptorRow::kNibbleCount];
@@ -132,7 +133,8 @@ void SemiGlobal<V>::sweepRight(const std::uint8_t* pixels, const std::uint8_t* p
     const int jump_down = jumps_[static_cast<std::size_t>(std::abs(pixels[u] - pixels_above[u]))];
     PathStep<V> along(before, least_before, jump_along, penalties_.step);
     PathStep<V> down(above, least_above, jump_down, penalties_.step);
-    V pending = V::splat(0);  // of the block before: stored late, since this block reads the last byte that it replaces
+    V pending = V::splat(0);  // of the previous block: stored late, since this block reads the last byte that it
+                              // replaces
     for (int d = 0; d < disparities; d += kLanes) {
       const V cost = V::load(costs + d);
       const V from_left = along.extend(d, cost), from_above = down.extend(d, cost);

@@ -13,31 +13,32 @@ namespace dense_stereo {
 /// Penalties of semi-global matching, in units of the cost (one per differing census bit or grey level of gradient).
 struct Penalties {
   int step = 14;           ///< P1: the disparity changes by one
-  int jump = 60;           ///< P2: by more, between pixels of equal brightness
+  int jump = 60;           ///< P2: it changes by more, between pixels of equal brightness
   int least_jump = 30;     ///< P2 at strong edges of the image
-  int jump_slope = 2;      ///< by how much P2 falls with each grey level between the two pixels
-  int gradient_limit = 6;  ///< most that the gradients' difference may cost, grey levels
+  int jump_slope = 2;      ///< decrease of P2 per grey level between the two pixels
+  int gradient_limit = 6;  ///< limit of the cost of the gradients' difference, grey levels
 };
 
-/// Winner of each pixel.
+/// Best disparity of each pixel.
 struct Winners {
   static constexpr std::uint8_t kInvalid = 255;
-  Padded<std::uint8_t> disparity;  ///< px, `kInvalid` where the right image's winner disagrees by more than two
-  Padded<std::uint8_t> cost;       ///< sum of the three path costs at the winner, saturated
-  Padded<std::uint8_t> rival;      ///< the least sum at disparities that differ by more than one, saturated
+  Padded<std::uint8_t> disparity;  ///< px, `kInvalid` where the right image's best disparity differs by more than two
+  Padded<std::uint8_t> cost;       ///< sum of the three path costs at the best disparity, saturated
+  Padded<std::uint8_t> rival;      ///< smallest sum at disparities that differ by more than one, saturated
 };
 
 /// Semi-global matching (Hirschmueller 2008) along three paths, from the left, from above and from the right, in one
-/// pass over the rows. Costs of one row are kept, never a volume: a row costs time in proportion to width times
-/// disparities, and memory for two rows. Path costs and their sum are 8-bit and saturate. Pixels near the left
-/// border, whose match may lie outside the right image, compete with the disparities that remain. V: Bytes, or
+/// pass over the rows. Costs of one row are kept instead of a volume: time per row is proportional to width times
+/// disparities, memory is that of two rows. Path costs and their sum are 8-bit and saturate. Pixels near the left
+/// border, whose match may lie outside the right image, are compared over the remaining disparities. V: Bytes, or
 /// PlainBytes for the reference, with the same result. Not thread-safe.
 template <typename V>
 class SemiGlobal {
  public:
-  /// Memory for images of this size. `disparities`: 16...240, a multiple of 16; the search is 0...disparities - 1 px.
+  /// Allocates for images of this size. `disparities`: 16...240, a multiple of 16; the search range is 0...disparities
+  /// - 1 px.
   void resize(int width, int height, int disparities);
-  /// Both images have the size of resize() and rows extended by extendRows.
+  /// Matches images of the size given to resize(), with rows extended by extendRows().
   void match(const Padded<std::uint8_t>& left, const Padded<std::uint8_t>& right, const Penalties& penalties,
              Winners& winners);
 
@@ -55,10 +56,10 @@ class SemiGlobal {
   std::array<std::uint8_t, 256> jumps_{};  ///< P2 by the difference of grey levels
   DescriptorRow left_row_, right_row_;
   std::vector<std::uint8_t> costs_, sums_;                  ///< of one row, width x disparities
-  std::vector<std::uint8_t> above_, above_least_;           ///< path from above: the last row
-  std::array<std::vector<std::uint8_t>, 2> along_;          ///< path along the row: the last pixel and this one
-  std::vector<std::uint8_t> right_cost_, right_disparity_;  ///< winners of the right image, from its right end
-  std::vector<std::uint8_t> around_;                        ///< 255 at the winner and its neighbours, else 0
+  std::vector<std::uint8_t> above_, above_least_;           ///< path from above: previous row
+  std::array<std::vector<std::uint8_t>, 2> along_;          ///< path along the row: previous and current pixel
+  std::vector<std::uint8_t> right_cost_, right_disparity_;  ///< best disparities of the right image, from its right end
+  std::vector<std::uint8_t> around_;                        ///< 255 at the best disparity and its neighbours, else 0
 };
 
 }  // namespace dense_stereo

@@ -8,9 +8,10 @@ namespace dense_stereo {
 
 namespace {
 
-// Measured on rendered worlds and on Middlebury pairs, whose truth is good to 0.1 px (dense_stereo/bench, accuracy).
+// Measured on rendered worlds and on Middlebury pairs, whose ground truth is accurate to 0.1 px (dense_stereo/bench,
+// accuracy).
 constexpr float kVarianceScale = 1.35F * 1.35F;  // neighbouring residuals are correlated
-constexpr float kLeastSigma = 0.097F;            // px, what the residuals do not show
+constexpr float kLeastSigma = 0.097F;            // px, errors not contained in the residuals
 
 }  // namespace
 
@@ -35,7 +36,7 @@ void SgmMatcher::match(const MatcherInput& input, DisparityImage& image) {
   finish(image);
 }
 
-/// From matched pixels: their means and deviations are equal.
+/// Estimated from matched pixels, by equal means and deviations.
 Exposure SgmMatcher::compareBrightness(const MatcherInput& input) const {
   std::int64_t left = 0, right = 0, left_squares = 0, right_squares = 0, count = 0;
   for (int v = 0; v < input.left.height(); v += 2) {
@@ -71,7 +72,7 @@ void SgmMatcher::finish(DisparityImage& image) const {
     for (int u = 0; u < image.width; ++u) {
       const std::size_t at = image.index(u, v);
       const float variance = kVarianceScale * noise[u] / (information[u] + 1.0F) + kLeastSigma * kLeastSigma;
-      const bool valid = d[u] > 0.0F && variance < largest;  // 0 px is nothing at a finite depth
+      const bool valid = d[u] > 0.0F && variance < largest;  // 0 px means infinite depth
       image.disparity[at] = valid ? d[u] : DisparityImage::kInvalid;
       image.variance[at] = valid ? variance : 0.0F;
     }

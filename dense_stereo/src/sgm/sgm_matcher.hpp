@@ -13,8 +13,8 @@
 
 namespace dense_stereo {
 
-/// The method `sgm`: semi-global matching to whole pixels, small components removed, then two steps of slanted
-/// alignment, whose residuals give the variance and decide what is answered.
+/// Method `sgm`: semi-global matching to integer disparities, removal of small components, then two steps of slanted
+/// alignment, whose residuals determine the variance and the valid pixels.
 class SgmMatcher final : public Matcher {
  public:
   explicit SgmMatcher(const Parameters& parameters) : parameters_(parameters) {}

@@ -86,7 +86,7 @@ TEST(DepthEdges, LooksAcrossOccludedStripsAndForgivesSlants) {
     for (int u = 0; u < 64; ++u) ASSERT_EQ(edges.row(v)[u], 0);
 }
 
-/// A textured lower half below a flat, saturated sky, all at one disparity, as semi-global matching fills it.
+/// Textured lower half below a flat, saturated sky, all at one disparity, as filled by semi-global matching.
 TEST(UnsupportedRegions, RemovesTheFlatSkyAndKeepsTexture) {
   std::mt19937 random(1);
   Padded<std::uint8_t> left = constantMap(96, 96, 255);
@@ -112,7 +112,7 @@ TEST(UnsupportedRegions, RemovesTheFlatSkyAndKeepsTexture) {
   }
 }
 
-/// The windows of the seven lowest rows of a flat sky hold the texture below it.
+/// The windows of the seven lowest rows of a flat sky contain the texture below it.
 TEST(UnsupportedRegions, RemovesTheSkyUpToTheOutlineAndKeepsAFlatPatchWithinTexture) {
   constexpr int kHorizon = 60, kReached = 53;
   std::mt19937 random(2);

@@ -78,7 +78,7 @@ TEST(GroundPlane, ReportsStepsAndABreakInTheSlope) {
   EXPECT_EQ(slope.verdict, GroundVerdict::NotPlanar) << slope.support;
 }
 
-/// A wall across the view at 3.2 m has more pixels near the ground than the ground has, and covers none of it.
+/// A wall across the view at 3.2 m has more pixels near the ground than the ground, but no ground area.
 TEST(GroundPlane, IsFoundBeforeAWall) {
   const GroundPlane plane =
       findGround(pointsOn([](double, double z) { return z < 3.2 ? 0.0 : 50.0; }, 0.1, 1), groundCamera());

@@ -29,7 +29,7 @@ Padded<std::uint8_t> filteredNoise(unsigned seed) {
   return filtered;
 }
 
-/// Sum of absolute differences over the window around a pixel, as its definition says.
+/// Sum of absolute differences over the window around a pixel, by its definition.
 int windowSum(const Padded<std::uint8_t>& left, const Padded<std::uint8_t>& right, int u, int v, int d) {
   const int x = std::clamp(u, 0, left.width() - 1), y = std::clamp(v, 0, left.height() - 1);
   int sum = 0;

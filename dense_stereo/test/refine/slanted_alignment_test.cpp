@@ -15,7 +15,7 @@ namespace {
 
 using testing_support::SlantedPair;
 
-/// A pair, its disparities rounded to whole pixels, and no edges of depth or edges everywhere.
+/// Pair with its disparities rounded to integers, and depth edges nowhere or everywhere.
 struct RoundedStart {
   Padded<std::uint8_t> left, right, edges;
   Padded<float> start;

@@ -63,7 +63,7 @@ class DenseStereoNodelet : public ::testing::Test {
     ASSERT_TRUE(graph.call("reset"));
   }
   StereoCamera camera() { return makeCamera(sequence.options().camera); }
-  /// One frame after the other, each when all of the one before has come out: no queue overflows.
+  /// Shows one frame after another, each when all messages of the previous one have been received: no queue overflows.
   bool play(int first, int count) {
     for (int i = first; i < first + count; ++i) {
       const std::size_t wanted = graph.grounds.size() + 1;

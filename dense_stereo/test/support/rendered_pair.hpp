@@ -13,11 +13,11 @@
 
 namespace dense_stereo::testing_support {
 
-/// What a stereo camera above the ground sees of a scene whose ground is z = 0, with noise of one grey level.
+/// Stereo pair of a camera above the ground z = 0 of a scene, with noise of one grey level.
 class RenderedPair {
  public:
-  /// The camera is `height` m above (x, y), looks along the world's x axis and is pitched down by `pitch` rad and
-  /// rolled by `roll` rad.
+  /// The camera is `height` m above (x, y), faces the world's x axis and is pitched down by `pitch` rad and rolled by
+  /// `roll` rad.
   RenderedPair(const urban_nav_core::testing::Scene& scene, double x, double y, double height, double pitch,
                double roll)
       : height_(height) {

@@ -40,7 +40,7 @@ class SlantedPair {
     double u, v, phase;  // rad/px
   };
 
-  /// The column of the left image that the right one shows at u: u = left - disparity(left).
+  /// Returns the column of the left image for column u of the right one: u = left - disparity(left).
   double leftColumn(double u, double v) const { return (u + disparity(0.0, v)) / (1.0 - along_); }
   double value(double u, double v) const {
     double sum = 0.0;

@@ -11,22 +11,22 @@ namespace fabmap_node {
 /// Parameters of place recognition; one member per row of table().
 struct Parameters {
   std::string model;           // file, or "default"
-  double known_probability;    // announced as KNOWN above it
-  double closure_probability;  // proposed as a closure above it
-  double closures_per_metre;   // at most
-  double enough_closures;      // expected between two stretches
+  double known_probability;    // threshold of KNOWN
+  double closure_probability;  // threshold of proposed closures
+  double closures_per_metre;   // limit
+  double enough_closures;      // expected number between two parts of the path
   double mask;                 // s
   bool descriptor_matching, sequence;
-  int panorama_features;  // of one image
-  int image_features;     // of a single image
+  int panorama_features;  // per image
+  int image_features;     // per image
 
   Parameters();
 };
 
-/// The table: the only definition of the defaults, ranges, units and descriptions of these parameters.
+/// Returns the table, the only definition of defaults, ranges, units and descriptions of these parameters.
 const urban_nav_core::Table<Parameters>& table();
 
-/// Returns the part of the parameters that feature extraction needs.
+/// Returns the parameters of feature extraction.
 FeatureOptions featureOptions(const Parameters& parameters);
 
 }  // namespace fabmap_node

@@ -7,9 +7,10 @@
 namespace fabmap_node {
 namespace {
 
-constexpr double kStretch = 5.0;          // m: half a stretch over which odometry needs no help
-constexpr double kMostAllowance = 3.0;    // closures that may follow each other at one position
-constexpr double kClearlyLikelier = 2.0;  // ratio of odds to the likeliest of those before, for one more of a pair
+constexpr double kStretch = 5.0;          // m: half the length of a path part within which odometry needs no closures
+constexpr double kMostAllowance = 3.0;    // limit of consecutive closures at one position
+constexpr double kClearlyLikelier = 2.0;  // ratio of odds to the most probable earlier one, for a further closure of a
+                                          // pair
 
 double closureOdds(double probability) { return probability / std::max(1e-12, 1.0 - probability); }
 
@@ -27,7 +28,7 @@ void ClosureSelector::beginSession() {
   travelled_ = 0.0;
 }
 
-/// After enough of them, one more has to be clearly likelier than all before.
+/// After enough closures, a further one must be clearly more probable than all before.
 bool ClosureSelector::isWorthOneMore(const Tally& before, double probability) const {
   return before.count < enough_ || closureOdds(probability) >= kClearlyLikelier * before.best_odds;
 }

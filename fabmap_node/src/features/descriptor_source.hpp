@@ -10,13 +10,13 @@
 
 namespace fabmap_node {
 
-/// Describes the window of side `window_px` about `centre`, both in px of level 0, with the descriptor of keyframes.
+/// Computes the descriptor of keyframes for the window of side `window_px` centred at `centre`, both in px of level 0.
 /// Returns false if the window has too little contrast.
 bool describeAsBytes(const urban_nav_core::Pyramid& pyramid, const Eigen::Vector2d& centre, double window_px,
                      ByteDescriptor& descriptor);
 
-/// Returns the columns of `a` and `b` that are each other's nearest, clearly nearer than the second nearest on both
-/// sides. Requires unit vectors.
+/// Returns the columns of `a` and `b` that are mutual nearest neighbours with a clear margin to the second nearest on
+/// both sides. Requires unit vectors.
 std::vector<std::pair<std::size_t, std::size_t>> mutualMatches(const LookDescriptors& a, const LookDescriptors& b);
 
 }  // namespace fabmap_node

@@ -18,11 +18,11 @@ using urban_nav_core::ImageView;
 using urban_nav_core::Pyramid;
 
 constexpr int kPyramidLevels = 5;
-// Share of the features by level; a level is left with fewer only if the image has no more corners there.
+// Share of the features by level; a level has fewer only if the image has no more corners there.
 constexpr std::array<double, kPyramidLevels> kLevelShare = {0.40, 0.28, 0.18, 0.10, 0.04};
 constexpr double kWindowPx = 32.0;  // side of a descriptor's window, px of its level: two pixels a cell of its grid
 constexpr std::array<int, 3> kFastThresholds = {20, 10, 5};
-constexpr int kCornersPerFeature = 4;  // so that the quadtree has a choice
+constexpr int kCornersPerFeature = 4;  // candidates for the quadtree
 constexpr double kQuadtreeSlack = 2.0;
 
 struct RankedCorner {
@@ -84,7 +84,7 @@ std::vector<PlaceFeature> featuresOfImage(const ImageView& image, int wanted, st
   if (image.empty() || image.width < Pyramid::kSmallestSide || image.height < Pyramid::kSmallestSide) return features;
   Pyramid pyramid(kPyramidLevels);
   pyramid.build(image);
-  // Rounded sums of the shares, so that the levels add up to `wanted`.
+  // Differences of rounded cumulative shares, so that the levels add up to `wanted`.
   double share = 0.0;
   int given = 0;
   for (int level = 0; level < pyramid.levels(); ++level) {

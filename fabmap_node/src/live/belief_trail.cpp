@@ -10,9 +10,9 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr StampNs kPathLength = 60'000'000'000;  // ns; observations may wait in a queue
+constexpr StampNs kPathLength = 60'000'000'000;  // ns; observations may be queued
 constexpr std::size_t kMostPoints = 5000;        // 40 minutes at two a second
-constexpr std::size_t kMostWaiting = 1000;       // where there is no odometry
+constexpr std::size_t kMostWaiting = 1000;       // without odometry
 
 template <typename Item>
 void dropOldest(std::deque<Item>& items, std::size_t most) {
@@ -45,7 +45,7 @@ void BeliefTrail::clear() {
   points_.clear();
 }
 
-/// Interpolates between poses of odometry. Observations before the path are left out.
+/// Interpolates between poses of odometry. Observations before the path are dropped.
 void BeliefTrail::placeWaiting() {
   while (!waiting_.empty() && !path_.empty() && waiting_.front().stamp <= path_.back().stamp) {
     Point point = std::move(waiting_.front());

@@ -11,8 +11,7 @@
 
 namespace fabmap_node {
 
-/// Beliefs of the last observations, each where odometry was, for a picture of them. Its memory is bounded. Not
-/// thread-safe.
+/// Recent beliefs at their odometry poses, for display. Memory is bounded. Not thread-safe.
 class BeliefTrail {
  public:
   struct Point {
@@ -23,18 +22,18 @@ class BeliefTrail {
     std::optional<LikelyPlace> likeliest;  ///< of its places
   };
 
-  /// Adds a pose of odometry. A stamp that jumps back begins a path of its own.
+  /// Adds a pose of odometry. A backward jump of stamps begins a new path.
   void addOdometry(const urban_nav_core::StampedPose& T_odom_base);
-  /// Adds a belief, once odometry has reached its stamp; none of an unused observation or of a stationary robot. A
-  /// stamp that jumps back clears the trail.
+  /// Adds a belief once odometry has reached its stamp, except for unused observations and stationary robots. A
+  /// backward jump of stamps clears the trail.
   void add(const PlaceBelief& belief);
   void clear();
 
   /// Returns the beliefs in order of time.
   const std::deque<Point>& points() const { return points_; }
-  /// Returns the point of the observation with a stamp; nullptr if there is none.
+  /// Returns the point of the observation with this stamp; nullptr if there is none.
   const Point* find(urban_nav_core::StampNs stamp) const;
-  /// Returns the number of points that were ever added: it changes with them.
+  /// Returns the total number of points ever added, which serves as a revision.
   std::size_t count() const { return count_; }
 
  private:
@@ -44,8 +43,8 @@ class BeliefTrail {
   };
   void placeWaiting();
 
-  std::deque<Position> path_;  // the last minute
-  std::deque<Point> waiting_;  // for odometry of their stamps
+  std::deque<Position> path_;  // last minute
+  std::deque<Point> waiting_;  // until odometry reaches their stamps
   std::deque<Point> points_;
   std::size_t count_ = 0;
 };

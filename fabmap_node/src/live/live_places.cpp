@@ -18,14 +18,14 @@ std::string readNamedModel(const Parameters& parameters) {
   return parameters.model == "default" ? std::string(defaultModelBytes()) : urban_nav_core::readBytes(parameters.model);
 }
 
-/// Numbers are published: new ones are appended.
+/// Numbers are published: append new ones.
 enum class PlacesReason { None = 0, NoUsableImages = 1, CameraMissing = 2, NotStored = 3, NotRead = 4 };
 
-// Time by stamps until a session without odometry is named after its first observation: visual odometry gives its first
-// pose within a window.
+// Time by stamps after which a session without odometry is named by its first observation: visual odometry publishes
+// its first pose after a window.
 constexpr urban_nav_core::StampNs kLongestWait = 10'000'000'000;
-// ... and until one with odometry is named by its first pose: a window of frames lies between that and the first step,
-// which announces the session.
+// Time after which one with odometry is named by its first pose: the first step, which announces the session, follows
+// it by a window of frames.
 constexpr urban_nav_core::StampNs kAnnouncedWait = 5'000'000'000;
 
 }  // namespace
@@ -46,7 +46,7 @@ LivePlaces::~LivePlaces() { endSession(); }
 
 void LivePlaces::addOdometry(const urban_nav_core::StampedPose& pose) {
   odometry_.add(pose);
-  if (!first_observed_ && odometry_.isAhead()) {  // nothing of the session before was observed
+  if (!first_observed_ && odometry_.isAhead()) {  // the previous session had no observations
     if (odometry_.start()) nameSession(*odometry_.start() + kAnnouncedWait);  // its id is used
     beginNextSession();
     session_.reset();
@@ -66,7 +66,7 @@ void LivePlaces::follow(const urban_nav_core::OdometrySessionPtr& announced) {
     next_announced_ = announced;
     return;
   }
-  if (announced_ || session_) {  // of another session, which has ended without a jump back
+  if (announced_ || session_) {  // of another session, which ended without a backward jump
     endSession();
     map_->beginSession("");
     odometry_.restart();
@@ -130,7 +130,7 @@ void LivePlaces::beginSession(const Session& session) {
   std::vector<ArchivedSession> others;
   for (const ArchivedSession& each : earlier_)
     if (each.session.id != session_->id) others.push_back(each);
-  if (others.size() < earlier_.size()) useMap(buildMap(others));  // recorded again: its places will be, too
+  if (others.size() < earlier_.size()) useMap(buildMap(others));  // being recorded again, and so are its places
   for (urban_nav_store::StoredPlace& place : std::exchange(unnamed_, {})) keep(std::move(place));
 }
 
@@ -162,14 +162,14 @@ void LivePlaces::commit() {
   try {
     store_.flush();
   } catch (const urban_nav_core::UserError&) {
-    return;  // the fault of the store's state
+    return;  // reported in the store's state
   }
 }
 
 void LivePlaces::reset() {
   endSession();
   if (store_.isWanted())
-    for (const Session& session : resumable_) namer_.reserve(session.id);  // the store has them
+    for (const Session& session : resumable_) namer_.reserve(session.id);  // already in the store
   else namer_.clear();
   earlier_.clear();
   recorded_ = std::make_shared<RecordedPlaces>();
@@ -194,7 +194,7 @@ urban_nav_live::StageReport LivePlaces::report() const {
     degrade(PlacesReason::NoUsableImages, "NoUsableImages",
             std::string("images cannot be used: ") + toString(last_.observation));
   else if (counts_.incomplete > 0 && counts_.incomplete == counts_.observations)
-    degrade(PlacesReason::CameraMissing, "CameraMissing", "a camera of the panorama gives no images");
+    degrade(PlacesReason::CameraMissing, "CameraMissing", "a camera of the panorama sends no images");
   else if (const std::string fault = store_.state().fault; !fault.empty())
     degrade(PlacesReason::NotStored, "NotStored", "places are not stored: " + fault);
   else if (!unreadable_.empty()) degrade(PlacesReason::NotRead, "NotRead", "places cannot be compared: " + unreadable_);

@@ -19,22 +19,22 @@
 
 namespace fabmap_node {
 
-/// Identity of the session that is being recorded, beside its first stamp: the same for all stages of a robot.
+/// Identity of the session being recorded, in addition to its first stamp; common to all stages of a robot.
 struct LiveSessionName {
   std::string robot, recording;
-  bool is_announced = false;  ///< the odometry announces its sessions, a window of frames after their first pose
+  bool is_announced = false;  ///< odometry announces its sessions, a window of frames after their first pose
 };
 
-/// Place recognition of a live robot, free of ROS. Sessions and their ids are those that the odometry announces;
-/// observations whose stamps jump back belong to the next one. Where it does not announce it, ids are those of
+/// Place recognition of a live robot, independent of ROS. Sessions and their ids are those announced by odometry;
+/// observations after a backward jump of stamps belong to the next one. Without an announcement, ids are those of
 /// urban_nav_live::SessionNamer after 5 s: the session begins with its first pose of odometry, or, without one for 10
-/// s, with its first observation, and is unnamed in closures. Descriptors of places are read from the stores they come
-/// from, those of places that are being recorded from a temporary file. Not thread-safe.
+/// s, with its first observation, and has no name in closures before. Descriptors of places are read from the stores
+/// they come from, those of places being recorded from a temporary file. Not thread-safe.
 class LivePlaces {
  public:
-  /// `store`: absolute path of the file to which places are written while they are observed, and whose places are
-  /// earlier ones; empty: none. A session that was recorded from the same start continues: its places there are
-  /// observed again. Throws UserError or DataError if the model cannot be read.
+  /// `store`: absolute path of a file to which places are written, and whose places are used as earlier ones; empty:
+  /// none. A session recorded from the same start is continued: its places there are observed again. Throws UserError
+  /// or DataError if the model cannot be read.
   explicit LivePlaces(const Parameters& parameters, LiveSessionName name = {}, const std::string& store = "",
                       urban_nav_live::StoreWriterLink::Options store_options = {});
   /// Ends the session.
@@ -44,24 +44,23 @@ class LivePlaces {
 
   /// Adds a pose of odometry.
   void addOdometry(const urban_nav_core::StampedPose& pose);
-  /// The odometry is in this session; null: it does not announce it.
+  /// Sets the session of odometry; null: not announced.
   void follow(const urban_nav_core::OdometrySessionPtr& announced);
   /// Recognises an observation. `images`: by camera; an empty view is missing.
   PlaceOutput process(urban_nav_core::StampNs stamp, const std::vector<urban_nav_core::ImageView>& images);
-  /// Opens the store when an attempt is due, and hands places on to it. To be called some ten times a second.
+  /// Opens the store when an attempt is due, and passes places to it. Call about ten times a second.
   void syncStore();
-  /// Hands all places on to the store, if one is wanted, and waits until they are committed, or storeState() has a
-  /// fault.
+  /// Passes all places to the store, if any, and blocks until they are committed or storeState() has a fault.
   void commit();
-  /// Forgets all places and begins a new session. What is in the store, or on its way, remains there.
+  /// Removes all places and begins a new session. Places that are stored or pending are kept in the store.
   void reset();
-  /// Writes the places of all sessions to a store, which may exist, with the id of the session that is being recorded.
-  /// Returns what was done. Throws UserError for a path that is not absolute or cannot be written, and without places;
-  /// DataError if the store holds other places of a session at the same times.
+  /// Writes the places of all sessions to a store, which may exist, with the id of the session being recorded. Returns
+  /// a summary. Throws UserError for a path that is not absolute or cannot be written, and without places; DataError if
+  /// the store has other places of a session at the same times.
   std::string save(const std::string& path);
-  /// Adds the places of the sessions of a store as earlier ones. Those of the session that is being recorded remain;
-  /// its sequence of observations begins anew. Returns what was done. Throws UserError for a path that is not absolute
-  /// or a store without places of this model, DataError for a damaged one.
+  /// Adds the places of the sessions of a store as earlier ones. Those of the session being recorded are kept; its
+  /// sequence of observations is reset. Returns a summary. Throws UserError for a path that is not absolute or a store
+  /// without places of this model, DataError for a damaged one.
   std::string load(const std::string& path);
 
   urban_nav_live::StoreState storeState() const { return store_.state(); }
@@ -72,18 +71,18 @@ class LivePlaces {
     std::int64_t observations = 0, unused = 0, incomplete = 0, known = 0, closures = 0;
   };
   struct Added {
-    std::vector<urban_nav_store::Session> sessions;  ///< in the map now, or before
-    std::size_t known = 0, places = 0;               ///< sessions in the map before, places that were not
-    std::size_t other_model = 0;                     ///< places left out
+    std::vector<urban_nav_store::Session> sessions;  ///< in the map, including earlier ones
+    std::size_t known = 0, places = 0;               ///< sessions that were in the map before; places that were not
+    std::size_t other_model = 0;                     ///< ignored places
   };
   /// Map whose last session is being recorded.
   struct BuiltMap {
     std::unique_ptr<FabMap> map;
-    std::vector<ArchivedSession> earlier;  ///< its sessions before
-    std::size_t other_model = 0;           ///< places left out
+    std::vector<ArchivedSession> earlier;  ///< its earlier sessions
+    std::size_t other_model = 0;           ///< ignored places
   };
 
-  /// Names the session once it is known when it began.
+  /// Names the session once its beginning is known.
   void nameSession(urban_nav_core::StampNs now);
   void beginSession(const urban_nav_store::Session& session);
   void beginOwnSession(urban_nav_core::StampNs start);
@@ -92,16 +91,16 @@ class LivePlaces {
   void endSession();
   void keep(urban_nav_store::StoredPlace place);
   std::unique_ptr<FabMap> emptyMap();
-  /// Returns a map of those earlier sessions that have places, and of what was recorded.
+  /// Returns a map of the earlier sessions that have places, and of the recorded places.
   BuiltMap buildMap(const std::vector<ArchivedSession>& earlier);
   void useMap(BuiltMap built);
-  /// Reads the descriptors of a place of the map; what cannot be read agrees with nothing, and is reported.
+  /// Reads the descriptors of a place of the map; if that fails they are empty, and the fault is reported.
   std::string readLook(std::size_t session, urban_nav_core::StampNs stamp);
-  /// Returns the name that the session that is being recorded has, or would have if it were saved.
+  /// Returns the name that the session being recorded has, or would have if it were saved.
   urban_nav_store::Session recordedSession() const;
   /// Returns the sessions with places that are not in the store.
   std::vector<ArchivedSession> unstoredSessions() const;
-  /// Adds the sessions of a store that are not in the map yet as earlier ones.
+  /// Adds the sessions of a store that are not yet in the map as earlier ones.
   Added addSessions(const std::string& path);
 
   const Parameters parameters_;
@@ -112,18 +111,17 @@ class LivePlaces {
   LivePlaceStore store_;
   std::unique_ptr<FabMap> map_;
   urban_nav_live::SessionNamer namer_;
-  std::vector<ArchivedSession> earlier_;             // sessions before the one that is being recorded, as in the map
-  std::vector<urban_nav_store::Session> resumable_;  // those of the store when it was opened
-  // Of the session that is being recorded.
-  std::optional<urban_nav_store::Session> session_;  // nullopt: not named yet
-  // As odometry announces it, and the next one, which odometry has begun before the observations; null:
-  // nothing.
+  std::vector<ArchivedSession> earlier_;             // before the one being recorded, as in the map
+  std::vector<urban_nav_store::Session> resumable_;  // sessions of the store when it was opened
+  // Session being recorded.
+  std::optional<urban_nav_store::Session> session_;  // nullopt: not yet named
+  // As announced by odometry, and the next one, which odometry has begun before the observations; null: none.
   urban_nav_core::OdometrySessionPtr announced_, next_announced_;
   std::shared_ptr<RecordedPlaces> recorded_;
   SessionOdometry odometry_;
   urban_nav_live::TimeJumpDetector time_;                  // of observations
   std::optional<urban_nav_core::StampNs> first_observed_;  // nullopt: no observation yet
-  std::vector<urban_nav_store::StoredPlace> unnamed_;      // places for the store, before it has a name
+  std::vector<urban_nav_store::StoredPlace> unnamed_;      // places to be stored once the session is named
   Counts counts_;
   PlaceBelief last_;
   std::string unreadable_;  // fault of the last descriptors that could not be read; empty: none

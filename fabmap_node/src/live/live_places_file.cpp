@@ -81,12 +81,12 @@ std::string LivePlaces::load(const std::string& path) {
   requireAbsolute(path);
   const Added added = addSessions(path);
   if (added.sessions.empty())
-    throw UserError(path, added.other_model > 0 ? "holds places of another model only" : "holds no places",
+    throw UserError(path, added.other_model > 0 ? "has only places of another model" : "has no places",
                     "a store of `urban_nav map` or of ~save, with the same model");
   return path + ": " + std::to_string(added.places) + " places of " +
          std::to_string(added.sessions.size() - added.known) + " sessions are in the map" +
-         (added.known > 0 ? "; " + std::to_string(added.known) + " sessions were there already" : "") +
-         (added.other_model > 0 ? "; " + std::to_string(added.other_model) + " places of another model left out" : "");
+         (added.known > 0 ? "; " + std::to_string(added.known) + " sessions were in it already" : "") +
+         (added.other_model > 0 ? "; " + std::to_string(added.other_model) + " places of another model ignored" : "");
 }
 
 }  // namespace fabmap_node

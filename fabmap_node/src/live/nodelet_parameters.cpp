@@ -9,7 +9,7 @@ using urban_nav_core::Table;
 
 NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
 
-// clang-format would give each of the columns a line.
+// clang-format would put each column on its own line.
 // clang-format off
 const Table<NodeletParameters>& nodeletTable() {
   using P = NodeletParameters;
@@ -17,13 +17,14 @@ const Table<NodeletParameters>& nodeletTable() {
       "",
       {
           {"cameras", &P::cameras, "", std::int64_t{5}, std::int64_t{1}, std::int64_t{5}, {},
-           "Cameras of the panoramic head, on ladybug/camera0 ... 4; 1: no panoramas, the left camera serves.",
+           "Number of cameras of the panoramic head, on ladybug/camera0 ... 4; 1: the left camera instead of "
+           "panoramas.",
            "paper 3"},
           {"compressed", &P::compressed, "", true, false, false, {},
            "Image topics are sensor_msgs/CompressedImage; /compressed is appended to their names.",
            "docs/architecture.md"},
           {"queue_size", &P::queue_size, "messages", std::int64_t{100}, std::int64_t{5}, std::int64_t{10000}, {},
-           "Images and poses that may wait; when the queue is full, the oldest is dropped and counted.",
+           "Largest number of waiting images and poses; beyond it the oldest is dropped and counted.",
            "docs/architecture.md"},
           {"max_lateness", &P::max_lateness, "s", 0.2, 0.0, 10.0, {},
            "Time by stamps that a panorama waits for missing images.", "docs/architecture.md"},
@@ -33,11 +34,11 @@ const Table<NodeletParameters>& nodeletTable() {
           {"recording", &P::recording, "", "", false, false, {},
            "Name of the recording, the same on all computers of the robot.", "docs/files.md"},
           {"map", &P::map, "", "", false, false, {},
-           "Absolute path of a session store whose places are in the map from the start, as with ~load. Empty: none.",
+           "Absolute path of a session store whose places are in the map from the start, as by ~load. Empty: none.",
            "docs/files.md"},
           {"store", &P::store, "", "", false, false, {},
-           "Absolute path of a file of its own to which places are written, and whose places are earlier ones. Empty: "
-           "none.",
+           "Absolute path of a session store, used by this node only, to which places are written; its previous "
+           "places are in the map. Empty: none.",
            "docs/files.md"},
       });
   return rows;

@@ -7,9 +7,9 @@
 
 namespace fabmap_node {
 
-/// Parameters of the nodelet of place recognition alone: transport and queues. One member per row of nodeletTable().
+/// Parameters of the nodelet of place recognition: transport and queues. One member per row of nodeletTable().
 struct NodeletParameters {
-  int cameras;  // of the panoramic head; 1: the left camera
+  int cameras;  // cameras of the panoramic head; 1: the left camera
   bool compressed;
   int queue_size;       // images
   double max_lateness;  // s

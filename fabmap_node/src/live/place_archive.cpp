@@ -28,7 +28,7 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-/// Session of a store that other sessions share.
+/// Session of a store that is shared with other sessions.
 class StoredSession final : public PlaceArchive {
  public:
   StoredSession(std::shared_ptr<Store> store, Session session, std::string model_hash, std::size_t vocabulary_size)
@@ -56,7 +56,7 @@ class StoredSession final : public PlaceArchive {
   const std::size_t vocabulary_size_;
 };
 
-/// Returns a file that vanishes when it is closed, or -1.
+/// Returns a file that is deleted when it is closed, or -1.
 int openTemporaryFile() {
   std::error_code error;
   std::string path = (std::filesystem::temp_directory_path(error) / "urban_nav_places_XXXXXX").string();

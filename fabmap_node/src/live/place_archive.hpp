@@ -12,11 +12,11 @@
 
 namespace fabmap_node {
 
-/// Words and descriptors of the places of one session, some 20 kB each, in a file instead of memory.
+/// Words and descriptors of the places of one session, about 20 kB each, in a file instead of memory.
 class PlaceArchive {
  public:
   virtual ~PlaceArchive() = default;
-  /// Calls `visit` for all places in order of time. Returns the number of places left out: their words are those of
+  /// Calls `visit` for all places in order of time. Returns the number of places ignored because their words are of
   /// another model. Throws DataError if one is damaged.
   virtual std::size_t forEach(const PlaceVisitor& visit) const = 0;
   /// Returns packLook() of the place at a stamp; empty if there is no such place. Throws DataError or UserError if it
@@ -30,13 +30,13 @@ struct ArchivedSession {
   std::shared_ptr<const PlaceArchive> places;
 };
 
-/// Returns the sessions of a store, which stays open for reading with them; some may have no places of the model with
-/// this hash. Throws UserError or DataError if it cannot be read.
+/// Returns the sessions of a store, which they keep open for reading; some may have no places of the model with this
+/// hash. Throws UserError or DataError if it cannot be read.
 std::vector<ArchivedSession> archivedSessions(const std::string& path, const std::string& model_hash,
                                               std::size_t vocabulary_size);
 
-/// Places of the session that is being recorded, in a temporary file without a name. What that file does not take, as
-/// on a full disk, remains in memory.
+/// Places of the session being recorded, in an unnamed temporary file. Data that cannot be written, as on a full disk,
+/// are kept in memory.
 class RecordedPlaces final : public PlaceArchive {
  public:
   RecordedPlaces();
@@ -44,7 +44,7 @@ class RecordedPlaces final : public PlaceArchive {
   RecordedPlaces(const RecordedPlaces&) = delete;
   RecordedPlaces& operator=(const RecordedPlaces&) = delete;
 
-  /// Appends a place; stamps ascend.
+  /// Appends a place; stamps must ascend.
   void add(const MapPlace& place);
   std::size_t forEach(const PlaceVisitor& visit) const override;
   std::string look(urban_nav_core::StampNs stamp) const override;
@@ -53,7 +53,7 @@ class RecordedPlaces final : public PlaceArchive {
   struct Entry {
     urban_nav_core::StampNs stamp = 0;
     double travelled = 0.0;
-    std::uint64_t offset = 0;  ///< of words and look
+    std::uint64_t offset = 0;  ///< of words and descriptors
     std::uint32_t words = 0, look = 0;
     std::uint8_t cameras = 1, missing = 0;
     bool is_in_memory = false;  ///< `offset` is an index of kept_

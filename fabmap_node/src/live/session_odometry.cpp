@@ -9,7 +9,7 @@ void SessionOdometry::add(const urban_nav_core::StampedPose& T_odom_base) {
   const bool jumped = time_.add(T_odom_base.stamp);
   if (jumped && !is_late_) next_.emplace();
   if (jumped) is_late_ = false;
-  if (is_late_) return;  // of the session that has ended
+  if (is_late_) return;  // of the ended session
   Part& part = next_ ? *next_ : current_;
   if (!part.start) part.start = T_odom_base.stamp;
   part.travelled.add(T_odom_base.stamp, T_odom_base.pose.t());

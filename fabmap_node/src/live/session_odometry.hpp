@@ -9,24 +9,24 @@
 
 namespace fabmap_node {
 
-/// Odometry of the session that observations belong to. Images and odometry are topics of their own: when a recording
-/// begins again, their stamps jump back at different moments. Not thread-safe.
+/// Odometry of the session of the observations. Images and odometry are separate topics: when a recording restarts,
+/// their stamps jump back at different moments. Not thread-safe.
 class SessionOdometry {
  public:
   /// Adds a pose. Stamps that jump back belong to the next session.
   void add(const urban_nav_core::StampedPose& T_odom_base);
-  /// Stamps of observations have jumped back: those that follow belong to the next session.
+  /// Begins the next session after stamps of observations have jumped back.
   void beginNextSession();
-  /// Odometry has begun a session without a jump back: what was driven before is forgotten.
+  /// Drops the distance travelled so far, after odometry has begun a session without a backward jump.
   void restart() { current_ = Part(); }
   /// Returns true if poses of the next session have arrived.
   bool isAhead() const { return next_.has_value(); }
 
-  /// Returns the stamp of the first pose of the session; nullopt before it.
+  /// Returns the stamp of the first pose of the session; nullopt without poses.
   std::optional<urban_nav_core::StampNs> start() const { return current_.start; }
-  /// Returns the newest stamp of odometry; nullopt before it.
+  /// Returns the newest stamp of odometry; nullopt without poses.
   std::optional<urban_nav_core::StampNs> newest() const { return time_.newest(); }
-  /// Returns the distance driven in the session up to a stamp, m.
+  /// Returns the distance travelled in the session up to a stamp, m.
   double travelled(urban_nav_core::StampNs stamp) const { return current_.travelled.at(stamp); }
 
  private:

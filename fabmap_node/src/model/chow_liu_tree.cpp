@@ -14,14 +14,14 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr std::size_t kProgressEvery = 256;  // words that have joined
+constexpr std::size_t kProgressEvery = 256;  // words added to the tree
 
-/// Frequency shrunk away from 0 and 1, as openFABMAP has it; `total` may be 0.
+/// Returns a frequency shrunk away from 0 and 1, as in openFABMAP; `total` may be 0.
 double smoothedFrequency(std::size_t count, std::size_t total) {
   return total == 0 ? 0.01 : 0.98 * static_cast<double>(count) / static_cast<double>(total) + 0.01;
 }
 
-/// For each word, the observations that contain it, ascending.
+/// Returns, for each word, the observations that contain it, ascending.
 std::vector<std::vector<std::uint32_t>> invertObservations(const WordSets& training) {
   std::vector<std::vector<std::uint32_t>> containing(training.vocabulary_size);
   for (std::size_t i = 0; i < training.observations.size(); ++i)
@@ -34,7 +34,7 @@ std::vector<std::vector<std::uint32_t>> invertObservations(const WordSets& train
   return containing;
 }
 
-/// Number of observations that contain both `word` and each other word.
+/// Counts the observations that contain both `word` and each other word.
 class CoOccurrence {
  public:
   explicit CoOccurrence(const WordSets& training)
@@ -42,7 +42,7 @@ class CoOccurrence {
 
   std::size_t count(Word word) const { return containing_[word].size(); }
 
-  /// Valid until the next call.
+  /// The result is valid until the next call.
   const std::vector<std::uint32_t>& with(Word word) {
     std::fill(both_.begin(), both_.end(), 0u);
     for (const std::uint32_t i : containing_[word])
@@ -56,7 +56,7 @@ class CoOccurrence {
   std::vector<std::uint32_t> both_;
 };
 
-/// Probabilities of `word` under each state of its parent, from the counts of both.
+/// Sets the probabilities of `word` given each state of its parent, from the counts of both.
 void setConditionals(ChowLiuTree& tree, Word word, std::size_t both, std::size_t own, std::size_t of_parent,
                      std::size_t total) {
   tree.p_parent_present[word] = smoothedFrequency(both, of_parent);
@@ -88,7 +88,7 @@ ChowLiuTree learnChowLiuTree(const WordSets& training, const std::function<void(
                    std::vector<double>(words)};
   for (Word q = 0; q < words; ++q) tree.p[q] = smoothedFrequency(pairs.count(q), total);
 
-  // Prim (1957): the word outside the tree with the strongest link to it joins next.
+  // Prim (1957): adds the word outside the tree with the strongest link to it.
   std::vector<float> strongest(words, -std::numeric_limits<float>::infinity());
   std::vector<std::uint32_t> shared(words, 0);  // observations with the word and its candidate parent
   std::vector<Word> outside(words);
@@ -119,7 +119,7 @@ ChowLiuTree learnChowLiuTree(const WordSets& training, const std::function<void(
     setConditionals(tree, joined, shared[joined], pairs.count(joined), pairs.count(tree.parent[joined]), total);
     if (!progress || outside.size() % kProgressEvery != 0) continue;
     const double left = static_cast<double>(outside.size()) / static_cast<double>(words);
-    progress(1.0 - left * left);  // each word is compared with all that are outside
+    progress(1.0 - left * left);  // each word is compared with all words outside the tree
   }
   return tree;
 }

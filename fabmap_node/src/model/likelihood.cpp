@@ -8,7 +8,7 @@ namespace {
 
 double toProbability(bool value, double p_true) { return value ? p_true : 1.0 - p_true; }
 
-/// p(z_q = z | z_parent, e) with p(z_q = 1 | e) = `detection`.
+/// Returns p(z_q = z | z_parent, e) with p(z_q = 1 | e) = `detection`.
 double observationGivenElement(const ChowLiuTree& tree, Word q, bool z, bool parent, double detection,
                                Dependence dependence) {
   const double given_element = toProbability(z, detection);
@@ -20,7 +20,7 @@ double observationGivenElement(const ChowLiuTree& tree, Word q, bool z, bool par
   return b / (a + b);
 }
 
-/// p(e_q = 1 | word present or absent at the place), with p(e_q = 1) = p(z_q = 1).
+/// Returns p(e_q = 1 | word present or absent at the place), with p(e_q = 1) = p(z_q = 1).
 double elementGivenPlace(double p, double likelihood_exists, double likelihood_absent) {
   return likelihood_exists * p / (likelihood_exists * p + likelihood_absent * (1.0 - p));
 }

@@ -7,18 +7,18 @@
 
 namespace fabmap_node {
 
-/// Appends a whole number in base 128, least significant digits first, the high bit on all but the last.
+/// Appends an integer in base 128, least significant digits first, with the high bit set on all but the last.
 inline void putNumber(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
   for (; value >= 128; value >>= 7) bytes.push_back(static_cast<std::uint8_t>(value | 128u));
   bytes.push_back(static_cast<std::uint8_t>(value));
 }
 
-/// Reads the numbers of putNumber(). The bytes must outlive it.
+/// Reads the output of putNumber(). The bytes must outlive it.
 class NumberReader {
  public:
   explicit NumberReader(const std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
   bool atEnd() const { return at_ == bytes_.size(); }
-  /// Returns the next number; `isValid` turns false at a damaged one.
+  /// Returns the next number; `isValid` becomes false at a damaged one.
   std::uint32_t next() {
     std::uint64_t value = 0;
     for (unsigned shift = 0; shift < 35; shift += 7) {

@@ -20,7 +20,7 @@ using urban_nav_core::DataError;
 
 namespace {
 
-// 1: without sequences. 3: with features of OpenCV, which no describer extracts.
+// 1: without sequences. 3: with OpenCV's features, which are no longer supported.
 constexpr std::uint32_t kOldestVersion = 1, kModelVersion = 2, kOpencvVersion = 3;
 constexpr char kModelName[] = "places model";
 constexpr std::size_t kMostWords = 1'000'000;
@@ -33,7 +33,7 @@ void archiveCentres(Archive& archive, Vocabulary& vocabulary) {
   if (!archive.isReading()) return;
   const std::size_t words = bytes.size() / kDescriptorBytes;
   archive.require(bytes.size() == words * kDescriptorBytes && words > 1 && words <= kMostWords,
-                  "another number of words");
+                  "its number of words differs");
   std::vector<ByteDescriptor> centres(words);
   for (std::size_t i = 0; i < words; ++i)
     std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(i * kDescriptorBytes), kDescriptorBytes,
@@ -45,7 +45,7 @@ void archiveProbabilities(Archive& archive, std::vector<double>& values, std::si
   std::vector<float> stored(values.begin(), values.end());
   archive(stored);
   if (!archive.isReading()) return;
-  archive.require(stored.size() == words, "another number of probabilities than words");
+  archive.require(stored.size() == words, "its numbers of probabilities and words differ");
   values.assign(stored.begin(), stored.end());
 }
 
@@ -57,7 +57,7 @@ void archiveTree(Archive& archive, ChowLiuTree& tree, std::size_t words) {
     NumberReader reader(parents);
     tree.parent.clear();
     while (!reader.atEnd() && reader.isValid() && tree.parent.size() <= words) tree.parent.push_back(reader.next());
-    archive.require(reader.isValid() && tree.parent.size() == words, "another number of parents than words");
+    archive.require(reader.isValid() && tree.parent.size() == words, "its numbers of parents and words differ");
   }
   archiveProbabilities(archive, tree.p, words);
   archiveProbabilities(archive, tree.p_parent_present, words);
@@ -69,7 +69,7 @@ void archiveWords(Archive& archive, WordSet& set, std::size_t words) {
   archive(steps);
   if (!archive.isReading()) return;
   std::optional<WordSet> read = unpackWords(steps, words);
-  archive.require(read.has_value(), "words of a sampled place out of order");
+  archive.require(read.has_value(), "the words of a sampled place are not ascending");
   set = std::move(*read);
 }
 
@@ -78,7 +78,7 @@ void archiveCalibration(Archive& archive, PlaceCalibration& calibration, std::ui
   for (std::size_t i = 0; i + (version < 2 ? 1 : 0) < calibration.weights.size(); ++i) archive(calibration.weights[i]);
   archive(calibration.floor, calibration.ceiling);
   archive.require(calibration.floor > 0.0 && calibration.floor < calibration.ceiling && calibration.ceiling < 1.0,
-                  "limits of a calibration that are no probabilities");
+                  "limits of a calibration are not probabilities");
 }
 
 void archiveSequence(Archive& archive, std::optional<PlaceCalibration>& calibration) {
@@ -97,7 +97,7 @@ void archiveModel(Archive& archive, PlaceModel& model, std::uint32_t version) {
   archive.require(detector.present_given_absent >= 0.0 &&
                       detector.present_given_absent < detector.present_given_exists &&
                       detector.present_given_exists < 1.0,
-                  "probabilities of a detector that cannot be");
+                  "probabilities of its detector are invalid");
   std::size_t samples = model.sampled_places.size();
   archive.count(samples, 8);
   if (archive.isReading()) model.sampled_places.assign(samples, {});
@@ -154,7 +154,7 @@ PlaceModel parseModel(std::string_view bytes, const std::string& name) {
     const std::string foreign = urban_nav_core::describeForeignContent(bytes);
     throw DataError(name, foreign.empty() ? error.what() : foreign,
                     foreign.empty() ? "a whole model written by places train"
-                                    : "`default`, or a model written by places train: it holds its own vocabulary");
+                                    : "`default`, or a model written by places train, which contains a vocabulary");
   }
   if (state.version == kOpencvVersion)
     throw DataError(name, "a model of OpenCV's features (sift or orb)",

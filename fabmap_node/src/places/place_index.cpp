@@ -7,7 +7,7 @@
 namespace fabmap_node {
 namespace {
 
-/// The words whose combination differs from (0, 0), each with it, ascending by word.
+/// Returns the words whose combination differs from (0, 0), with their combinations, ascending by word.
 std::map<Word, LikelihoodTable::Combination> activeWords(const LikelihoodTable& table, const WordSet& query) {
   std::map<Word, LikelihoodTable::Combination> active;
   for (const Word q : query) {

@@ -8,7 +8,7 @@ constexpr std::size_t kBlockPlaces = 4096;                 // 32 KiB of sums
 constexpr std::size_t kFrequentPlaces = kBlockPlaces / 8;  // above which bits are faster than a list (bench/speed.cpp)
 constexpr std::size_t kOctetWords = 8;
 
-/// Four at a time: the places of a list differ, which the compiler cannot know.
+/// Processes four at a time: the places of a list are distinct, which the compiler cannot know.
 void addToPlaces(const std::uint16_t* places, const std::uint16_t* end, double weight, double* sums) {
   for (; end - places >= 4; places += 4) {
     const double a = sums[places[0]] + weight, b = sums[places[1]] + weight;
@@ -21,7 +21,7 @@ void addToPlaces(const std::uint16_t* places, const std::uint16_t* end, double w
   for (; places != end; ++places) sums[*places] += weight;
 }
 
-/// Sums of the weights of all subsets of eight words.
+/// Returns the sums of the weights of all subsets of eight words.
 std::array<double, 256> sumSubsets(const std::array<double, kOctetWords>& weights) {
   std::array<double, 256> sums{};
   for (std::size_t bit = 0; bit < kOctetWords; ++bit)
@@ -38,7 +38,7 @@ void WordPostings::add(const WordSet& place) {
   if (++size_ % kBlockPlaces == 0) closeBlock();
 }
 
-/// Moves words of the open block that many places contain into octets.
+/// Moves words of the open block that occur in many places into octets.
 std::vector<WordPostings::WordOctet> WordPostings::takeFrequentWords() {
   std::vector<WordOctet> octets;
   std::size_t count = 0;
@@ -47,7 +47,7 @@ std::vector<WordPostings::WordOctet> WordPostings::takeFrequentWords() {
     const std::size_t bit = count++ % kOctetWords;
     if (bit == 0) {
       octets.emplace_back();
-      octets.back().words.fill(q);  // bits that stay zero have any word
+      octets.back().words.fill(q);  // unused bits may have any word
       octets.back().bits.assign(kBlockPlaces, 0);
     }
     octets.back().words[bit] = q;

@@ -10,8 +10,9 @@
 namespace fabmap_node {
 namespace {
 
-constexpr double kAlike = 20.0;  // neighbouring samples that count as one: 10 m of panoramas at 2 Hz and 1 m/s
-constexpr double kConstantDeviation = 1e-9;  // of evidence that is the same in all samples
+constexpr double kAlike = 20.0;  // number of similar consecutive samples that count as one: 10 m of panoramas at 2 Hz
+                                 // and 1 m/s
+constexpr double kConstantDeviation = 1e-9;  // for evidence that is constant over all samples
 constexpr auto kEvidenceSize = static_cast<Eigen::Index>(PlaceEvidence::kSize);
 
 std::size_t countRight(const std::vector<CalibrationSample>& samples) {
@@ -19,7 +20,7 @@ std::size_t countRight(const std::vector<CalibrationSample>& samples) {
       std::count_if(samples.begin(), samples.end(), [](const CalibrationSample& s) { return s.is_same_place; }));
 }
 
-/// Samples with `yes` and `no` as the targets of the two kinds, which weigh the same in total.
+/// Returns samples with the targets `yes` and `no` of the two kinds, with equal total weights.
 LogisticSamples asLogistic(const std::vector<CalibrationSample>& samples, double yes, double no) {
   const auto count = static_cast<Eigen::Index>(samples.size());
   double right_weight = 0.0, wrong_weight = 0.0;
@@ -36,7 +37,7 @@ LogisticSamples asLogistic(const std::vector<CalibrationSample>& samples, double
   return made;
 }
 
-/// Deviation of each column but the last; infinite where it is constant.
+/// Returns the standard deviation of each column but the last; infinite for a constant one.
 Eigen::VectorXd computeDeviations(const Eigen::MatrixXd& x) {
   const auto evidence = x.leftCols(kEvidenceSize);
   const Eigen::RowVectorXd mean = evidence.colwise().mean();
@@ -63,7 +64,7 @@ PlaceCalibration fitCalibration(const std::vector<CalibrationSample>& samples, d
   const std::size_t right = countRight(samples), wrong = samples.size() - right;
   PlaceCalibration calibration;
   if (right == 0 || wrong == 0) return calibration;
-  // Targets as Platt (1999) has them: a sample is evidence of its kind, not certainty.
+  // Targets of Platt (1999): a sample is evidence for its kind, not certainty.
   calibration.ceiling = (static_cast<double>(right) + 1.0) / (static_cast<double>(right) + 2.0);
   calibration.floor = 1.0 / (static_cast<double>(wrong) + 2.0);
   LogisticSamples logistic_samples = asLogistic(samples, calibration.ceiling, calibration.floor);

@@ -10,7 +10,7 @@
 namespace fabmap_node {
 namespace {
 
-// Of a unit vector of 64 sums of two elements, which are limited to 0.2 before the last normalisation; few are larger.
+// For a unit vector of 64 sums of two elements, which are limited to 0.2 before the last normalisation; few are larger.
 constexpr float kLevelsPerUnit = 40.0F;
 constexpr int kHighestLevel = 15;
 constexpr float kHighestCoordinate = 65535.0F;
@@ -60,7 +60,7 @@ std::string packLook(const LookFeatures& look) {
 std::uint8_t checkLook(std::string_view bytes, const std::string& name) {
   const std::size_t count = bytes.size() < kLookHeader ? 0 : read16(bytes, 1);
   if (bytes.size() != kLookHeader + count * kLookEntry || bytes.front() == 0)
-    throw urban_nav_core::DataError(name, "descriptors of a place that are truncated or damaged", "");
+    throw urban_nav_core::DataError(name, "the descriptors are truncated or damaged", "");
   return static_cast<std::uint8_t>(bytes.front());
 }
 

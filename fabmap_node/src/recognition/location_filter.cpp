@@ -9,12 +9,14 @@ namespace fabmap_node {
 namespace {
 
 constexpr std::size_t kPlacesAround = 4;  // on each side: up to four times the speed of the first visit
-constexpr double kChange = 0.05;  // of known to new, new to known, one place to another: each twenty observations
-constexpr double kPlacesElsewhere = 10.0;  // that share what is not around the last place: as many as are compared
-constexpr double kLargestLogRatio = 6.0;   // of one observation: no more than a calibration supports
+constexpr double kChange = 0.05;  // probability of a change from known to new, new to known, or between places: every
+                                  // twenty observations
+constexpr double kPlacesElsewhere = 10.0;  // number of places that share the probability elsewhere: as many as are
+                                           // compared
+constexpr double kLargestLogRatio = 6.0;   // limit for one observation: that of a calibration
 
 constexpr std::size_t kSequenceLength = 10;
-constexpr double kOnPath = 1.0;  // places, of the path at constant speed
+constexpr double kOnPath = 1.0;  // places, tolerance of the path at constant speed
 constexpr std::array<double, 14> kSpeeds = {0.5,  0.67,  0.8,  1.0,  1.25,  1.5,  2.0,  // places per observation
                                             -0.5, -0.67, -0.8, -1.0, -1.25, -1.5, -2.0};
 

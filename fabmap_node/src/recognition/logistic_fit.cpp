@@ -11,8 +11,8 @@ namespace fabmap_node {
 namespace {
 
 constexpr int kMostSteps = 200;
-constexpr double kSufficientShare = 1e-4;     // of the decrease that the gradient predicts (Nocedal and Wright, 3.4)
-constexpr double kDecreaseTolerance = 1e-14;  // nats a sample; the slope is then below the root of it
+constexpr double kSufficientShare = 1e-4;     // of the decrease predicted by the gradient (Nocedal and Wright, 3.4)
+constexpr double kDecreaseTolerance = 1e-14;  // nats per sample; the gradient is then below its square root
 
 struct LogisticSlope {
   Eigen::VectorXd gradient;
@@ -33,7 +33,7 @@ LogisticSlope computeSlope(const LogisticSamples& samples, double penalty, const
   return slope;
 }
 
-/// Newton's step for the coefficients that are not held.
+/// Returns Newton's step of the free coefficients.
 Eigen::VectorXd computeStep(LogisticSlope slope, const std::vector<bool>& is_held) {
   for (Eigen::Index i = 0; i < slope.gradient.size(); ++i) {
     if (!is_held[static_cast<std::size_t>(i)]) continue;
@@ -45,7 +45,7 @@ Eigen::VectorXd computeStep(LogisticSlope slope, const std::vector<bool>& is_hel
   return slope.hessian.ldlt().solve(-slope.gradient);
 }
 
-/// Releases the held coefficient that lowers the loss most steeply. Returns false if none does.
+/// Frees the bounded coefficient with the steepest decrease of the loss. Returns false if there is none.
 bool releaseSteepest(const Eigen::VectorXd& gradient, double tolerance, std::vector<bool>& is_held) {
   std::size_t steepest = is_held.size();
   double slope = -tolerance;
@@ -59,7 +59,7 @@ bool releaseSteepest(const Eigen::VectorXd& gradient, double tolerance, std::vec
   return true;
 }
 
-/// Share of a step, up to one, until the first bounded coefficient reaches zero, and which one that is (-1: none).
+/// Returns the share of a step, up to one, until the first bounded coefficient reaches zero, and its index (-1: none).
 std::pair<double, Eigen::Index> computeReach(const Eigen::VectorXd& coefficients, const Eigen::VectorXd& change) {
   std::pair<double, Eigen::Index> reach{1.0, -1};
   for (Eigen::Index i = 0; i + 1 < coefficients.size(); ++i)
@@ -88,7 +88,7 @@ Eigen::VectorXd fitLogistic(const LogisticSamples& samples, double penalty) {
   for (int step = 0; step < kMostSteps; ++step) {
     const LogisticSlope slope = computeSlope(samples, penalty, coefficients);
     const Eigen::VectorXd change = computeStep(slope, is_held);
-    const double decrease = -slope.gradient.dot(change);  // of twice the loss, if it were quadratic
+    const double decrease = -slope.gradient.dot(change);  // predicted by the quadratic model, for twice the loss
     if (decrease <= tolerance) {
       if (!releaseSteepest(slope.gradient, std::sqrt(tolerance), is_held)) break;
       continue;

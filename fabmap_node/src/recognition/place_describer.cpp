@@ -13,9 +13,9 @@ namespace {
 
 using urban_nav_core::ImageView;
 
-constexpr std::size_t kLeastWords = 30;   // of an observation, with fewer than this no place is unique
-constexpr double kDarkBrightness = 16.0;  // grey level under which an image is dark, if its contrast is low too
-constexpr double kBlankDeviation = 6.0;   // grey levels: less contrast has no structure but noise
+constexpr std::size_t kLeastWords = 30;   // per observation; with fewer no place is unique
+constexpr double kDarkBrightness = 16.0;  // grey level below which an image is dark, if its contrast is low too
+constexpr double kBlankDeviation = 6.0;   // grey levels: images with less contrast contain only noise
 constexpr int kBrightnessStep = 4;        // pixels and rows between samples
 
 struct ImageStatistics {

@@ -14,12 +14,12 @@
 namespace fabmap_node {
 namespace {
 
-/// A candidate elsewhere shows the same place, in another session or on another lap, if both the query and the best
-/// place agree with it as much as this share of the agreement of query and best place.
+/// A candidate elsewhere shows the same place, in another session or on another lap, if its agreement with both the
+/// query and the best place is at least this share of the agreement of query and best place.
 constexpr double kSamePlaceShare = 0.5;
-constexpr std::size_t kThinning = 4;       // of the descriptors of a first look
-constexpr int kSmallestSelection = 10;     // candidates without any look
-constexpr std::size_t kMostSorted = 1000;  // candidates, unless more are needed
+constexpr std::size_t kThinning = 4;       // of the descriptors in the first comparison
+constexpr int kSmallestSelection = 10;     // candidates without descriptor matching
+constexpr std::size_t kMostSorted = 1000;  // candidates, unless more are required
 
 double logMeanOfExponentials(const std::vector<double>& logs) {
   const double top = *std::max_element(logs.begin(), logs.end());
@@ -57,7 +57,7 @@ bool PlaceMatcher::isElsewhere(std::size_t a, std::size_t b) const {
   return places_[a].session != places_[b].session || std::abs(places_[a].stamp - places_[b].stamp) > options_.elsewhere;
 }
 
-/// The first candidates, among them a third that are elsewhere than the very first.
+/// Selects the first candidates, a third of them elsewhere than the very first.
 std::vector<PlaceMatcher::Candidate> PlaceMatcher::selectVaried(const std::vector<Candidate>& ranked,
                                                                 int most_wanted) const {
   const auto most = static_cast<std::size_t>(std::max(2, most_wanted));
@@ -84,7 +84,7 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::likeliest(
   };
   const int wanted =
       options_.second_looks > 0 ? std::max(options_.first_looks, options_.second_looks) : kSmallestSelection;
-  // Of a large map, the first ones nearly always suffice.
+  // In a large map, the first ones nearly always suffice.
   if (all.size() > kMostSorted) {
     const auto sorted = all.begin() + static_cast<std::ptrdiff_t>(kMostSorted);
     std::partial_sort(all.begin(), sorted, all.end(), isLikelier);
@@ -134,7 +134,7 @@ PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Ca
   return match;
 }
 
-/// Infinite without sampled places.
+/// Returns infinity without sampled places.
 double PlaceMatcher::logLikelihoodNew(const WordSet& query) const {
   std::vector<double> at_samples;
   sampled_.logLikelihoods(query, at_samples);

@@ -49,15 +49,15 @@ PlaceRecognition PlaceRecogniser::process(urban_nav_core::StampNs stamp, const P
   return result;
 }
 
-/// Takes the observation before out of the filter if the camera has not moved since.
+/// Removes the previous observation from the filter if the camera has not moved since.
 void PlaceRecogniser::followLook(const std::string& look) {
   LookFeatures now = unpackLook(look, "observation");
   if (last_look_ && isStationary(*last_look_, now)) filter_ = filter_before_;
   last_look_ = std::move(now);
 }
 
-/// The sequence counts for places of other sessions. Within a session, a facade that repeats itself trails the robot at
-/// a constant distance, which is as consistent as a revisit.
+/// The sequence is used for places of other sessions only. Within a session, a repetitive facade is matched at a
+/// constant distance from the robot, which is as consistent as a revisit.
 void PlaceRecogniser::judge(const std::vector<PlaceMatch>& matches, int cameras, PlaceRecognition& result) {
   const PlaceCalibration& alone = model_.calibration(cameras);
   const std::optional<PlaceCalibration>& sequence = model_.sequenceCalibration(cameras);

@@ -9,22 +9,22 @@
 namespace fabmap_node {
 namespace {
 
-constexpr float kVoteWidth = 0.08F;  // side of a cell of votes, shares of the image
+constexpr float kVoteWidth = 0.08F;  // side of a vote cell, relative to the image
 constexpr int kVoteHalf = 13;        // cells on each side of zero: displacements of up to a whole image
 constexpr int kVoteSide = 2 * kVoteHalf + 1;
-constexpr int kHeadingsPerCamera = 7;     // votes for a change of heading, about 10 deg each for five cameras
+constexpr int kHeadingsPerCamera = 7;     // vote bins of the change of heading, about 10 deg each for five cameras
 constexpr float kSameHeight = 0.12F;      // share of the image's height
-constexpr float kHorizon = 0.45F;         // height in the image below which next to nothing is sky
-constexpr std::size_t kFewestBelow = 40;  // features below it that say something by themselves
-constexpr float kStill = 0.006F;          // share of the image: some 3 px
+constexpr float kHorizon = 0.45F;         // relative height in the image below which there is hardly any sky
+constexpr std::size_t kFewestBelow = 40;  // features below the horizon that are sufficient for a separate test
+constexpr float kStill = 0.006F;          // relative to the image: about 3 px
 
-/// Displacement of a match, and whether it lies below the horizon in both observations.
+/// Displacement of a match, and whether it is below the horizon in both observations.
 struct Move {
   Eigen::Vector2f by;
   bool is_below = false;
 };
 
-/// Matches that agree, and those of them below the horizon.
+/// Numbers of consistent matches, in total and below the horizon.
 struct Agreeing {
   int all = 0, below = 0;
 };
@@ -41,7 +41,7 @@ Agreeing countAmong(const std::vector<Move>& moves, const IsAmong& is_among) {
   return agreeing;
 }
 
-/// Largest number of displacements in 3x3 neighbouring cells.
+/// Returns the largest number of displacements in 3x3 adjacent cells.
 Agreeing agreeingSingle(const std::vector<Move>& moves) {
   const auto cell = [](float move) { return static_cast<int>(std::lround(move / kVoteWidth)); };
   std::vector<int> votes(static_cast<std::size_t>(kVoteSide * kVoteSide), 0);
@@ -67,7 +67,7 @@ Agreeing agreeingSingle(const std::vector<Move>& moves) {
   });
 }
 
-/// Largest number of changes of heading in three neighbouring bins, of matches at the same height.
+/// Returns the largest number of changes of heading in three adjacent bins, among matches at the same height.
 Agreeing agreeingPanorama(const std::vector<Move>& moves, int cameras) {
   const int bins = kHeadingsPerCamera * cameras;
   const auto bin = [bins](float turn) {
@@ -90,7 +90,7 @@ Agreeing agreeingPanorama(const std::vector<Move>& moves, int cameras) {
   });
 }
 
-/// Share of matches that agree by chance.
+/// Returns the share of matches that are consistent by chance.
 double chanceShare(int cameras) {
   return cameras > 1 ? 3.0 / (kHeadingsPerCamera * cameras) * 2.0 * static_cast<double>(kSameHeight) : 9.0 * 0.0064;
 }
@@ -105,7 +105,7 @@ std::vector<Move> computeMoves(const LookFeatures& a, const LookFeatures& b) {
   return moves;
 }
 
-/// Share of `possible` features that agree beyond chance.
+/// Returns the share of `possible` features that are consistent beyond chance.
 double shareBeyondChance(int agreeing, std::size_t matches, int cameras, std::size_t possible) {
   const double beyond = agreeing - chanceShare(cameras) * static_cast<double>(matches);
   return std::clamp(beyond / static_cast<double>(possible), 0.0, 1.0);

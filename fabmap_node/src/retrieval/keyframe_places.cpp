@@ -34,16 +34,16 @@ using urban_nav_store::TableStore;
 namespace {
 
 constexpr std::size_t kFirstLooks = 30;    // likeliest keyframes by words, of which some descriptors are compared
-constexpr std::size_t kSecondLooks = 8;    // of these, of which all are
-constexpr std::size_t kFirstLookStep = 4;  // of the descriptors of a first look
-constexpr std::size_t kRowsAtATime = 50;   // of some 0.1 ms each
+constexpr std::size_t kSecondLooks = 8;    // of these, of which all descriptors are compared
+constexpr std::size_t kFirstLookStep = 4;  // of the descriptors in the first comparison
+constexpr std::size_t kRowsAtATime = 50;   // about 0.1 ms each
 
-/// Model whose words the places of a map have.
+/// Model of the words of a map's places.
 struct MapModel {
   std::string hash, bytes;
 };
 
-/// Returns the model that most sessions have, the default one if none has any.
+/// Returns the model of most sessions; the default one without any.
 MapModel modelOfMap(Store& store, const std::vector<SearchedKeyframe>& keyframes) {
   std::vector<urban_nav_store::SessionId> sessions;
   for (const SearchedKeyframe& each : keyframes)
@@ -102,7 +102,7 @@ class KeyframePlaces::Search {
   /// Place of the index.
   struct IndexedPlace {
     std::size_t keyframe = 0;
-    std::string look;  ///< empty: the store has it
+    std::string look;  ///< empty: in the store
   };
   struct Candidate {
     std::size_t place = 0;
@@ -160,7 +160,7 @@ class KeyframePlaces::Search {
     return describer_.describe({{pixels.data, pixels.cols, pixels.rows, static_cast<std::ptrdiff_t>(pixels.step)}});
   }
 
-  /// Returns the likeliest places by words, the first one first, with their descriptors.
+  /// Returns the likeliest places by words, most probable first, with their descriptors.
   std::vector<Candidate> likeliest(const WordSet& words) const {
     std::vector<double> likelihoods;
     index_.logLikelihoods(words, likelihoods);
@@ -186,8 +186,8 @@ class KeyframePlaces::Search {
     return row ? unpackLook(row->descriptors, "keyframe of the map") : LookFeatures();
   }
 
-  /// Compares every `step`-th descriptor, and puts those that agree most first. What geometry decides about needs no
-  /// caution about the sky.
+  /// Compares every `step`-th descriptor, and sorts by agreement. Sky needs no special treatment here, since geometric
+  /// verification follows.
   static void compare(const LookFeatures& query, std::size_t step, std::vector<Candidate>& candidates) {
     urban_nav_core::forEach(candidates.size(), 1, [&](std::size_t i) {
       Candidate& each = candidates[i];

@@ -58,7 +58,7 @@ PlaceDescription toPlaceDescription(const StoredPlace& row, std::size_t vocabula
   const std::optional<ObservationStatus> status = parseStatus(row.status);
   const auto words = unpackWords({row.words.begin(), row.words.end()}, vocabulary_size);
   if (!status || !words || row.cameras < 1 || row.cameras > 255 || row.missing < 0 || row.missing > row.cameras)
-    throw DataError(name, "is damaged, or of another vocabulary", "");
+    throw DataError(name, "is damaged, or has words of another vocabulary", "");
   description.status = *status;
   description.cameras = static_cast<std::uint8_t>(row.cameras);
   description.missing = static_cast<std::uint8_t>(row.missing);

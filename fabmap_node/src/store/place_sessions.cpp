@@ -20,7 +20,7 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-constexpr double kAssumedSpacing = 1.0;  // m from place to place without a trajectory; panoramas are 0.5 to 2 m apart
+constexpr double kAssumedSpacing = 1.0;  // m between places without a trajectory; panoramas are 0.5 to 2 m apart
 
 TravelledDistance travelledDistance(Store& store, const Session& session) {
   TravelledDistance travelled;

@@ -7,9 +7,9 @@
 namespace fabmap_node {
 namespace {
 
-constexpr std::ptrdiff_t kNearObservations = 1;  // neighbours in the drive show the same place
-// Places between MatcherOptions::elsewhere and so many times that are wrong, although much of the same street is in
-// view; later ones may be another lap.
+constexpr std::ptrdiff_t kNearObservations = 1;  // neighbours in the drive that show the same place
+// Places between MatcherOptions::elsewhere and this multiple of it are wrong, although much of the same street is
+// visible; later ones may be another lap.
 constexpr urban_nav_core::StampNs kSameStreet = 4;
 
 WordSets observationsWithout(const std::vector<DescribedDrive>& drives, std::size_t a, std::size_t b,
@@ -25,7 +25,8 @@ std::ptrdiff_t observationsApart(std::size_t a, std::size_t b) {
   return std::abs(static_cast<std::ptrdiff_t>(a) - static_cast<std::ptrdiff_t>(b));
 }
 
-/// Observations of the drive in the map: against the others, then against places further along the same street alone.
+/// Adds observations of the drive in the map: against the others, then only against places further along the same
+/// street.
 void addWithin(const PlaceMatcher& matcher, const DescribedDrive& drive, std::size_t site,
                const MatcherOptions& options, CalibrationRuns& runs) {
   const auto apart = [&drive](std::size_t a, std::size_t b) { return std::abs(drive[a].stamp - drive[b].stamp); };

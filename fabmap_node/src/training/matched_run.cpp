@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kStretchQueries = 30;
 
-constexpr double kLeastSamples = 10.0;  // of a situation for its whole weight
+constexpr double kLeastSamples = 10.0;  // of a situation with full weight
 
 /// Samples with their situations.
 struct SituationSamples {
@@ -25,7 +25,7 @@ struct SituationSamples {
     samples.push_back({evidence, *match.is_same_place, 1.0, run.site});
     situations.push_back(run.situation);
   }
-  /// Returns the samples with weights, by which situations count the same among the right ones and the wrong ones.
+  /// Returns the samples with weights that give all situations the same total, separately for correct and wrong ones.
   std::vector<CalibrationSample> weighted() const {
     std::map<std::pair<bool, Situation>, double> counts;
     for (std::size_t i = 0; i < samples.size(); ++i) counts[{samples[i].is_same_place, situations[i]}] += 1.0;

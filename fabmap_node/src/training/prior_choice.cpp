@@ -12,11 +12,11 @@
 namespace fabmap_node {
 namespace {
 
-constexpr std::size_t kLeastSites = 5;  // with fewer, their scatter is known to no better than 40 %
+constexpr std::size_t kLeastSites = 5;  // with fewer, their variation is known to no better than 40 %
 constexpr std::size_t kLeastSitesOfKind = 2;
 constexpr std::array<double, 10> kDeviations = {1.25, 2.5, 5.0, 10.0, 20.0, 40.0, 80.0, 160.0, 320.0, 640.0};
 
-/// Samples by their sites.
+/// Samples of one site.
 struct SiteFold {
   std::vector<CalibrationSample> held_out, others;
 };
@@ -45,7 +45,7 @@ std::size_t countSitesWith(const std::vector<SiteFold>& folds, bool is_same_plac
   }));
 }
 
-/// `right_weight`, `wrong_weight`: of all samples of the kind.
+/// `right_weight`, `wrong_weight`: total weights of the two kinds.
 SiteLoss computeSiteLoss(const SiteFold& fold, double prior_deviation, double right_weight, double wrong_weight) {
   const PlaceCalibration calibration = fitCalibration(fold.others, prior_deviation);
   SiteLoss sum;
@@ -58,7 +58,8 @@ SiteLoss computeSiteLoss(const SiteFold& fold, double prior_deviation, double ri
   return sum;
 }
 
-/// Sum of the losses, with its standard error as an estimate of a ratio to the sum of the weights, which is one.
+/// Returns the sum of the losses, with the standard error of a ratio estimate whose denominator, the sum of weights, is
+/// one.
 HeldOutLoss sumSites(double prior_deviation, const std::vector<SiteLoss>& sites) {
   HeldOutLoss sum;
   sum.prior_deviation = prior_deviation;

@@ -14,18 +14,20 @@ namespace {
 
 using urban_nav_core::UserError;
 
-constexpr double kSamePlace = 7.5, kAnotherPlace = 10.0;  // m, as closures are judged (Newman et al. 2009, Fig. 10)
-constexpr double kSameView = 3.0;                         // m; single images from so near show the same, if they have
-constexpr double kSameDirection = 0.866;                  // at least this cosine of their directions: 30 deg
-constexpr std::ptrdiff_t kLeastGap = 2;                   // observations of one day: nearer ones are the same picture
+constexpr double kSamePlace = 7.5, kAnotherPlace = 10.0;  // m, criteria for closures (Newman et al. 2009, Fig. 10)
+constexpr double kSameView = 3.0;                         // m; single images this near show the same place, if they
+                                                          // have
+constexpr double kSameDirection = 0.866;                  // at least this cosine between their directions: 30 deg
+constexpr std::ptrdiff_t kLeastGap = 2;                   // observations of one day: nearer ones are nearly identical
+                                                          // images
 
 struct LocatedPlaces {
   std::vector<DescribedPlace> places;
   std::vector<Eigen::Vector3d> positions, directions;
 };
-using PlaceSite = std::vector<LocatedPlaces>;  // days
+using PlaceSite = std::vector<LocatedPlaces>;  // by day
 
-/// `first_camera`: only its features, as a single image.
+/// `first_camera`: use only its features, as a single image.
 LocatedPlaces describeDay(const LocatedDay& day, std::size_t number, bool first_camera, const PlaceModel& model,
                           std::size_t look_features) {
   LocatedPlaces described;
@@ -52,7 +54,7 @@ LocatedPlaces describeDay(const LocatedDay& day, std::size_t number, bool first_
 const LabelPlace kAlwaysWrong = [](std::size_t, std::size_t) { return std::optional<bool>(false); };
 const AdmitPlace kEveryPlace = [](std::size_t, std::size_t) { return true; };
 
-/// Calibration runs of one kind of observation.
+/// Calibration runs for one kind of observation.
 class SiteRuns {
  public:
   SiteRuns(const PlaceModel& model, bool panoramas, const MatcherOptions& options)
@@ -61,7 +63,7 @@ class SiteRuns {
         panoramas_(panoramas),
         options_(options) {}
 
-  /// Runs of the queries of one day against the map of another day of the site, or of the same one.
+  /// Adds runs of the queries of one day against the map of another day of the site, or of the same one.
   void addDays(const LocatedPlaces& map, const LocatedPlaces& queries, std::size_t site, bool is_same_day) {
     const auto distance = [&](std::size_t query, std::size_t place) {
       return (queries.positions[query] - map.positions[place]).norm();
@@ -85,18 +87,18 @@ class SiteRuns {
     for (const DescribedPlace& place : map.places) matcher.add(place);
     const SituationRun run{matchRun(matcher, queries.places, isOtherPicture, label),
                            is_same_day ? Situation::SameDay : Situation::OtherDay, site};
-    // Within a session, single images are compared with neighbours: between days they may show different things.
+    // Single images are compared with neighbours only within a session: between days they may show different content.
     if (panoramas_ || is_same_day) runs_.alone.push_back(run);
     std::vector<SituationRun> away;
     for (MatchedRun& each : runsElsewhere(matcher, queries.places, isNear, kEveryPlace))
       away.push_back({std::move(each), Situation::Elsewhere, site});
     runs_.alone.insert(runs_.alone.end(), away.begin(), away.end());
-    if (is_same_day) return;  // sequences count between sessions only
+    if (is_same_day) return;  // sequences are used only between sessions
     runs_.sequence.push_back(run);
     runs_.sequence.insert(runs_.sequence.end(), away.begin(), away.end());
   }
 
-  /// Runs of all days of a site against the map of all other sites.
+  /// Adds runs of all days of a site against the map of all other sites.
   void addStranger(const std::vector<PlaceSite>& sites, std::size_t stranger) {
     PlaceMatcher matcher(table_, sampled_, options_);
     for (std::size_t s = 0; s < sites.size(); ++s)

@@ -15,8 +15,8 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr std::size_t kLeastDrives = 3;  // for calibration: the map, another one, and the rest to train with
-constexpr std::size_t kStretches = 3;    // that a drive is divided into if there are fewer
+constexpr std::size_t kLeastDrives = 3;  // for calibration: the map, another drive, and the rest for training
+constexpr std::size_t kStretches = 3;    // parts of a drive if there are fewer
 
 using Step = std::function<void(const std::string&, double)>;
 
@@ -75,7 +75,7 @@ std::vector<DescribedDrive> describedDrives(const std::vector<TrainingDrive>& dr
   return kind;
 }
 
-/// The first camera's images of panoramas, as single images.
+/// Returns the images of the panoramas' first camera, as single images.
 std::vector<TrainingDrive> firstCameras(std::vector<TrainingDrive> drives) {
   for (TrainingDrive& drive : drives)
     for (TrainingImage& image : drive) {

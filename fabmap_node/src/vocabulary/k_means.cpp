@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kAssignmentGrain = 64;
 
-/// Fisher-Yates with raw output of the generator: the same on every standard library.
+/// Fisher-Yates with raw output of the generator: equal with every standard library.
 void shuffle(std::vector<ByteDescriptor>& values, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   for (std::size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[random() % i]);
@@ -51,7 +51,7 @@ std::vector<ByteDescriptor> means(const std::vector<ByteDescriptor>& descriptors
     ++members[assignment.word[i]];
     for (std::size_t k = 0; k < kDescriptorBytes; ++k) sums[assignment.word[i]][k] += descriptors[i][k];
   }
-  std::vector<std::size_t> farthest;  // descriptors for the words without any
+  std::vector<std::size_t> farthest;  // descriptors for empty clusters
   const auto empty = static_cast<std::size_t>(std::count(members.begin(), members.end(), 0u));
   if (empty > 0) {
     farthest.resize(descriptors.size());

@@ -10,7 +10,7 @@
 namespace fabmap_node {
 namespace {
 
-constexpr std::size_t kUngrouped = 64;  // vocabularies of no more words are searched as a whole
+constexpr std::size_t kUngrouped = 64;  // vocabularies of at most this size are searched exhaustively
 constexpr std::size_t kVisitedGroups = 8;
 constexpr int kGroupingIterations = 4;
 
@@ -47,7 +47,7 @@ void Vocabulary::group() {
       sum.col(member[i]) += all.col(static_cast<Eigen::Index>(i));
       members[static_cast<std::size_t>(member[i])] += 1.0F;
     }
-    // Whole numbers, so that sums of products stay exact and do not depend on the order of summation.
+    // Integers, so that sums of products are exact and independent of the order of summation.
     for (std::size_t g = 0; g < count; ++g)
       if (members[g] > 0.0F)
         coarse_.col(static_cast<Eigen::Index>(g)) =

@@ -34,7 +34,7 @@ constexpr StampNs kObservationPeriod = 1'000'000'000, kMonday = 1'225'719'873 * 
 
 class LivePlacesTest : public ::testing::Test {
  protected:
-  /// A process that writes to a store, or to none.
+  /// Process that writes to a store, or to none.
   std::unique_ptr<LivePlaces> begin(const std::string& store, bool is_announced = false) {
     urban_nav_live::StoreWriterLink::Options options;
     options.now = [this] { return now_; };
@@ -43,7 +43,7 @@ class LivePlacesTest : public ::testing::Test {
     places->syncStore();
     return places;
   }
-  /// A drive past places, one an kObservationPeriod, with odometry.
+  /// Drive past places, one per kObservationPeriod, with odometry.
   static void drive(LivePlaces& places, StampNs start, unsigned from, unsigned to) {
     for (unsigned i = from; i < to; ++i) {
       const StampNs stamp = start + (i - from) * kObservationPeriod;
@@ -56,7 +56,7 @@ class LivePlacesTest : public ::testing::Test {
     const cv::Mat image = drawSquares(place, 0);
     return places.process(stamp, {{image.data, image.cols, image.rows, image.cols}});
   }
-  /// An hour later, as far as the store is concerned.
+  /// Advances the clock of the store by an hour.
   void wait() { now_ += std::chrono::hours(1); }
 
   static std::vector<Session> sessions(const std::string& path) { return Store(path, Access::Read).sessions().all(); }
@@ -189,15 +189,15 @@ TEST_F(LivePlacesTest, SessionsAreThoseOfTheOdometry) {
   drive(*places, kMonday, 0, 2);
   places->follow(first);
   drive(*places, kMonday + 2 * kObservationPeriod, 2, 4);
-  // Odometry jumps back before the images do, and announces it.
+  // Odometry jumps back before the images do, and announces the new session.
   places->addOdometry({kMonday, urban_nav_core::Pose()});
-  places->follow(first);  // poses that its window still had
+  places->follow(first);  // poses remaining in its window
   places->follow(second);
   observe(*places, kMonday + 4 * kObservationPeriod, 4);
   drive(*places, kMonday + kObservationPeriod, 5, 8);
   const PlaceOutput again = observe(*places, kMonday + 5 * kObservationPeriod, 1);
   for (const auto& closure : again.closures) EXPECT_EQ(closure.b.session, second->id);
-  // A reset of the odometry is a session without a jump back.
+  // A reset of odometry begins a session without a backward jump.
   drive(*places, reset_at, 8, 9);
   places->follow(third);
   drive(*places, reset_at + kObservationPeriod, 9, 11);

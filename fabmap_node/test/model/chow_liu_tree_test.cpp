@@ -36,7 +36,7 @@ WordSets drawDependentWords(std::size_t words, std::size_t observations, std::ui
   return drawn;
 }
 
-/// The largest sum of weights over all labelled trees, by Prüfer's bijection.
+/// Returns the largest sum of weights over all labelled trees, by Prüfer's bijection.
 double bestOfAllTrees(const std::vector<std::vector<double>>& weight) {
   const std::size_t n = weight.size();
   std::vector<std::size_t> code(n - 2, 0);

@@ -66,7 +66,8 @@ TEST(PlaceIndex, LargeMapsEqualThePlainEvaluation) {
 }
 
 TEST(Likelihood, OfAllQueriesAtOnePlaceSumsToOneWithoutTheTree) {
-  // Naive Bayes is a distribution over the 2^V queries; the tree's approximation is one only word by word.
+  // Naive Bayes is a normalised distribution over the 2^V queries; the tree's approximation is normalised per word
+  // only.
   const WordSets drawn = drawWords(9, 60, 0.3, 5);
   const LikelihoodTable table(learnChowLiuTree(drawn), {0.6, 0.05}, Dependence::Naive);
   double at_place = 0.0, unknown = 0.0;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kPostingWords = 40;
 
-/// Word q is in a share of q / 40 of the places: from rare ones to those of nearly all places.
+/// Word q is in a share of q / 40 of the places, from rare to nearly all.
 std::vector<WordSet> drawPlaces(std::size_t count) {
   urban_nav_core::testing::Dice dice(11);
   std::vector<WordSet> places(count);

@@ -25,7 +25,7 @@ std::vector<CalibrationSample> drawSamples(int count) {
   return samples;
 }
 
-/// Both kinds weigh the same in a fit: log odds shift by those of the kinds.
+/// Both kinds have equal total weight in a fit, which shifts log odds by those of the kinds.
 double shiftOfKinds(const std::vector<CalibrationSample>& samples) {
   double right = 0.0;
   for (const CalibrationSample& sample : samples) right += sample.is_same_place ? 1.0 : 0.0;

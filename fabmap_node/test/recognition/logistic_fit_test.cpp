@@ -31,7 +31,7 @@ double numericSlope(const LogisticSamples& samples, double penalty, Eigen::Vecto
   return (above - logisticLoss(samples, penalty, at)) / (2.0 * kStep);
 }
 
-/// At the minimum the slope of a free coefficient is zero, and that of one at its bound does not point below.
+/// At the minimum the gradient of a free coefficient is zero, and that of one at its bound is not negative.
 void expectMinimum(const LogisticSamples& samples, double penalty) {
   const Eigen::VectorXd fitted = fitLogistic(samples, penalty);
   ASSERT_TRUE(fitted.allFinite());
@@ -57,7 +57,7 @@ TEST(FitLogistic, IsAtTheMinimumWhereEvidenceSeparatesTheKinds) {
 }
 
 TEST(FitLogistic, CorrelatedEvidenceKeepsWhatTheFirstBoundHolds) {
-  // The second column opposes the first: alone it speaks against, beside the first for the place.
+  // The second column is negatively correlated with the place by itself, but positively given the first.
   LogisticSamples samples = drawRows((Eigen::VectorXd(3) << 3.0, 1.0, 0.0).finished(), 2000, 5);
   samples.x.col(1) = 0.7 * samples.x.col(1) - 0.7 * samples.x.col(0);
   expectMinimum(samples, 0.01);

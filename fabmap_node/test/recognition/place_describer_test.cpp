@@ -123,7 +123,7 @@ TEST(PlaceRows, ReadBackAndRefuseDamage) {
   EXPECT_THROW(toPlaceDescription(row, 10), urban_nav_core::DataError) << "words of a larger vocabulary";
 }
 
-// What is taken all the same is compared without harm.
+// Damaged input that is accepted must be compared without errors.
 TEST(PlaceRows, Fuzzed) {
   const PlaceDescription description = describePixels(squares(4));
   const urban_nav_store::StoredPlace row = toStoredPlace("session", 17, description, "hash");

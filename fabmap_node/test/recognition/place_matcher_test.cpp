@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kWords = 60;
 constexpr std::size_t kSimilarPlaces = 1300, kOtherPlaces = 400;
 
-/// Words that are mostly those below 30, or mostly those from 30 on.
+/// Words that are mostly below 30, or mostly from 30 on.
 WordSet drawWordsOfPlace(bool low, urban_nav_core::testing::Dice& dice) {
   WordSet set;
   for (Word q = 0; q < kWords; ++q)
@@ -22,8 +22,8 @@ WordSet drawWordsOfPlace(bool low, urban_nav_core::testing::Dice& dice) {
   return set;
 }
 
-/// A map in which one moment of the first session has more places than a search ranks at first, all of them likelier
-/// than the places of the second session. Words only.
+/// Map in which one moment of the first session has more places than a search ranks at first, all of them with a higher
+/// likelihood than the places of the second session. Words only.
 class LargeMap {
  public:
   LargeMap() {

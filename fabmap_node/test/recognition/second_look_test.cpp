@@ -29,7 +29,7 @@ TEST(SecondLook, PanoramasAgreeUnderAChangeOfHeading) {
   EXPECT_GT(secondLook(lookAt(4, 0, 5), lookFeatures(turned, kEveryFeature)).share, 0.4);
 }
 
-/// Features above the horizon of two synthetic places together, and those below it of two others.
+/// Features above the horizon of two synthetic places, combined with those below it of two others.
 PlaceObservation skyOver(std::uint32_t sky, std::uint32_t ground, std::uint32_t noise) {
   PlaceObservation seen;
   seen.cameras = 5;

@@ -51,7 +51,7 @@ const std::vector<Keyframe>& streetKeyframes() {
   return made;
 }
 
-/// The other day: somewhat beside, in other light.
+/// The other day: slightly offset, with different illumination.
 Keyframe visit(std::size_t i) {
   return street().keyframe(lookingAlong({3.3 + kSpacing * static_cast<double>(i), 0.4, 1.2}, 0.1), 0.8);
 }
@@ -80,7 +80,7 @@ class KeyframePlacesTest : public ::testing::Test {
     std::filesystem::remove_all(folder_);
   }
 
-  /// Stores the words of all keyframes, in the words of the suite's model.
+  /// Stores the words of all keyframes, by the built-in model.
   template <typename Row>
   void storeWords(const std::string& model_hash) {
     const PlaceModel model = defaultModel();

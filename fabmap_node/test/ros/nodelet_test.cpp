@@ -39,7 +39,7 @@ using urban_nav_core::StampNs;
 constexpr StampNs kFirstStamp = 1'225'719'873'000'000'000, kHalfSecond = 500'000'000;
 constexpr int kHeadCameras = 5;
 
-/// Returns the number of places that a store has from a stamp on; 0 if there is no store yet.
+/// Returns the number of places in a store from a stamp on; 0 without a store.
 std::size_t countPlaces(const std::string& path, StampNs from) {
   try {
     urban_nav_store::Store store(path, urban_nav_store::Access::Read);
@@ -53,7 +53,7 @@ std::size_t countPlaces(const std::string& path, StampNs from) {
   }
 }
 
-/// Returns the process of a node, as its slave API tells it; 0 if it does not answer.
+/// Returns the process of a node, from its slave API; 0 if it does not answer.
 pid_t findProcess(const std::string& node) {
   XmlRpc::XmlRpcValue request, response, uri;
   request[0] = request[1] = node;
@@ -69,7 +69,7 @@ pid_t findProcess(const std::string& node) {
   return static_cast<int>(answer[2]);
 }
 
-/// A panoramic head on topics, and a subscriber to those of the nodelet.
+/// Panoramic head on topics, and a subscriber to those of the nodelet.
 class Head {
  public:
   Head() {
@@ -105,7 +105,7 @@ class Head {
     return std::any_of(beliefs.begin(), beliefs.end(),
                        [&](const auto& belief) { return urban_nav_ros::toStampNs(belief.header.stamp) == stamp; });
   }
-  /// Shows a place and waits for its belief: images of topics that overtake each other would seem to go back in time.
+  /// Shows a place and waits for its belief, because images of different topics may overtake each other.
   bool observe(unsigned place, StampNs stamp) {
     show(place, stamp);
     return until([&] { return hasBelief(stamp); });
@@ -121,7 +121,7 @@ class Head {
     message.pose.pose.orientation.w = 1.0;
     odometry_.publish(message);
   }
-  /// Resets the nodelet, and forgets what it has published.
+  /// Resets the nodelet, and drops the messages received from it.
   bool reset() {
     std_srvs::Trigger call;
     const bool done = ros::service::call("fabmap_node/reset", call) && call.response.success;
@@ -149,7 +149,7 @@ class Head {
   ros::Subscriber belief_, closure_, marker_;
 };
 
-/// One head for all tests: topics that are advertised anew may lose messages.
+/// One head for all tests: topics that are advertised again may lose messages.
 class FabmapNodelet : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { shared_ = std::make_unique<Head>(); }
@@ -182,14 +182,14 @@ TEST_F(FabmapNodelet, RecognisesARevisitAndProposesIt) {
 }
 
 TEST_F(FabmapNodelet, ForgetsOnResetAndContinuesWithFourCameras) {
-  // More than max_lateness apart, and so little that no image seems to go back in time.
+  // More than max_lateness apart, but too little to be a backward jump.
   const auto toStamp = [](unsigned place) { return kFirstStamp + place * 300'000'000LL; };
   for (unsigned place = 10; place < 15; ++place) {
     head.show(place, toStamp(place), 2);
     if (place < 12) continue;
     ASSERT_TRUE(Head::until([&] { return head.hasBelief(toStamp(place - 2)); })) << "the others may be completed";
   }
-  // With all cameras: when it comes out, all images before it have been received.
+  // With all cameras: once it is published, all earlier images have been received.
   ASSERT_TRUE(head.observe(15, toStamp(15)));
   EXPECT_EQ(head.beliefs.size(), 6U);
   for (const auto& belief : head.beliefs) EXPECT_EQ(belief.observation, "used");

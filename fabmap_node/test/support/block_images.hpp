@@ -15,7 +15,7 @@ namespace fabmap_node::testing {
 
 inline constexpr int kBlocksWidth = 240, kBlocksHeight = 180;
 
-/// Returns the pixels of an image of rectangles of random size and grey level, `shift` px (at most 6) further right.
+/// Returns the pixels of an image of rectangles of random size and grey level, shifted right by `shift` px (at most 6).
 inline std::vector<std::uint8_t> drawBlocks(unsigned seed, int shift = 0) {
   std::mt19937 random(seed);
   std::vector<std::uint8_t> pixels(kBlocksWidth * kBlocksHeight, 90);

@@ -7,7 +7,7 @@
 
 namespace fabmap_node::testing {
 
-/// Squares of random brightness: an image that no other place or camera has.
+/// Squares of random brightness, unique to a place and camera.
 inline cv::Mat drawSquares(unsigned place, unsigned camera) {
   std::mt19937 random(100 * place + camera);
   cv::Mat grid(24, 32, CV_8UC1), image(240, 320, CV_8UC1);

@@ -28,8 +28,8 @@ inline ByteDescriptor syntheticDescriptor(std::uint32_t kind, std::uint32_t nois
   return descriptor;
 }
 
-/// Place `number`: some 60 kinds of 300, at positions of its own. `noise` changes the descriptors and positions a
-/// little, as a second visit does.
+/// Place `number`: about 60 of 300 kinds of features, at positions specific to it. `noise` perturbs descriptors and
+/// positions, as on a second visit.
 inline PlaceObservation syntheticPlace(std::uint32_t number, std::uint32_t noise, std::uint8_t cameras = 1) {
   std::mt19937 random(1000 + number);
   PlaceObservation observation;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kSiteCount = 8;
 
-/// 120 samples of each site; `separation`: of the means of both kinds, in deviations of the evidence.
+/// 120 samples of each site; `separation`: between the means of both kinds, in standard deviations of the evidence.
 std::vector<CalibrationSample> drawSites(double separation, unsigned seed, std::size_t sites = kSiteCount) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -33,7 +33,7 @@ std::vector<CalibrationSample> drawSites(double separation, unsigned seed, std::
   return samples;
 }
 
-/// Log loss of the deviation that was chosen.
+/// Returns the log loss of the chosen standard deviation.
 const HeldOutLoss& chosenLoss(const PriorChoice& choice) {
   return *std::find_if(choice.losses.begin(), choice.losses.end(),
                        [&choice](const HeldOutLoss& loss) { return loss.prior_deviation == choice.prior_deviation; });

@@ -17,7 +17,7 @@ using testing::syntheticPlace;
 
 constexpr urban_nav_core::StampNs kOneSecond = 1'000'000'000;
 
-/// Drives at places of their own; each place is in three images in a row.
+/// Drives at different places; each place is in three consecutive images.
 std::vector<TrainingDrive> syntheticDrives() {
   std::vector<TrainingDrive> drives(4);
   for (std::uint32_t d = 0; d < drives.size(); ++d)

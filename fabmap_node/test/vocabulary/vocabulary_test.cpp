@@ -61,7 +61,7 @@ TEST(TrainVocabulary, KeepsSeparateKindsApart) {
       if (owner < 0) owner = static_cast<int>(kind);
       shared += owner != static_cast<int>(kind) ? 1 : 0;
     }
-  EXPECT_LE(shared, 60);  // of 600: two kinds to which no centre was drawn may share a word
+  EXPECT_LE(shared, 60);  // of 600: two kinds without a centre may share a word
 }
 
 TEST(TrainVocabulary, DoesNotDependOnTheNumberOfThreads) {

@@ -15,10 +15,10 @@
 
 namespace laser_mapper {
 
-/// Duration of a chunk. Chunks begin at multiples of it, hence a recording has the same chunks in every run.
+/// Duration of a chunk. Chunks begin at multiples of it, so that a recording has the same chunks in every run.
 constexpr urban_nav_core::StampNs kChunkNs = 4'000'000'000;
 
-/// Returns the beginning of the chunk that a stamp falls into.
+/// Returns the beginning of the chunk that contains a stamp.
 urban_nav_core::StampNs chunkBegin(urban_nav_core::StampNs stamp);
 
 /// Scans of one laser.
@@ -33,11 +33,11 @@ struct LidarInput {
   urban_nav_core::Pose T_base_lidar;
   std::uint8_t sensor = 0;                                                 ///< id (sensors.hpp)
   std::vector<std::shared_ptr<const urban_nav_store::LidarSweep>> sweeps;  ///< of the chunk
-  /// Some sweeps of the chunk and of the seconds around it: evidence of free space.
+  /// A subset of the sweeps of the chunk and of the seconds around it, as evidence of free space.
   std::vector<std::shared_ptr<const urban_nav_store::LidarSweep>> evidence;
 };
 
-/// Points of dense stereo of one pair of images.
+/// Points of dense stereo of one stereo pair.
 struct StereoFrame {
   struct Point {
     Eigen::Vector3f p_base = Eigen::Vector3f::Zero();  ///< m
@@ -49,41 +49,42 @@ struct StereoFrame {
   std::vector<Point> points;
 };
 
-/// Number of beams by what became of them.
+/// Numbers of beams by result.
 struct BeamCounts {
   std::size_t all = 0;           ///< with a valid range
   std::size_t mixed = 0;         ///< on the edge between two surfaces
-  std::size_t without_pose = 0;  ///< outside the trajectory, or in a gap of it
-  std::size_t out_of_range = 0;  ///< nearer or farther than the parameters allow
+  std::size_t without_pose = 0;  ///< outside the trajectory, or in a gap
+  std::size_t out_of_range = 0;  ///< outside the range of the parameters
 };
 BeamCounts operator+(const BeamCounts& a, const BeamCounts& b);
 
-/// A chunk in the map.
+/// Rendered chunk of the map.
 struct RenderedChunk {
   struct Part {
     Tile tile;
     std::vector<MapCell> cells;
   };
-  std::vector<Part> parts;  ///< in the order of the tiles, cells in the order of z, y, x, those of stereo last
+  std::vector<Part> parts;  ///< in the order of the tiles; cells in the order of z, y, x, those of stereo last
   BeamCounts beams;
 };
 
-/// Measurements that a chunk is rendered from.
+/// Measurements of a chunk.
 struct ChunkInput {
   std::vector<LaserInput> lasers;
   std::vector<LidarInput> lidars;
-  std::vector<StereoFrame> stereo;  ///< points that fill what no laser measured, of sessions with planar lasers
+  std::vector<StereoFrame> stereo;  ///< points that fill areas without laser points, in sessions with planar lasers
   std::vector<std::shared_ptr<const DepthFrame>> views;  ///< depth images of the chunk and of the seconds around it
 };
 
-/// Time before and after a chunk within which depth images and sweeps are evidence.
+/// Time before and after a chunk whose depth images and sweeps are used as evidence.
 constexpr urban_nav_core::StampNs kEvidenceNs = 2'000'000'000;
 
-/// Renders measurements along a trajectory, each at its own time, and averages the ends of beams that fall into one
-/// cube of the map's grid. Cubes of a 3D LiDAR that more sweeps of `evidence` see through than see occupied are
-/// ghosts. Points of dense stereo are apart from those of lasers: of `stereo`, without those less certain than
-/// Parameters::stereo_sigma; of `views`, what several of them agree on, weighted by its variance. Ends beyond the grid
-/// (50 km, 1.6 km in height for cubes of 5 cm) count as out of range. Throws DataError for damaged sweeps. Thread-safe.
+/// Renders measurements along a trajectory, each at its own time, and averages beam ends within each voxel of the map's
+/// grid. Voxels of a 3D LiDAR are ghosts if more sweeps of `evidence` see through them than see them occupied. Points
+/// of dense stereo are stored separately from those of lasers: from `stereo`, those with a sigma below
+/// Parameters::stereo_sigma; from `views`, points on which several agree, weighted by inverse variance. Ends beyond the
+/// grid (50 km, 1.6 km in height for voxels of 5 cm) count as out of range. Throws DataError for damaged sweeps.
+/// Thread-safe.
 RenderedChunk renderChunk(const Parameters& parameters, const urban_nav_core::Trajectory& T_map_base,
                           const ChunkInput& input, urban_nav_core::StampNs begin);
 

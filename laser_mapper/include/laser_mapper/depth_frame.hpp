@@ -6,11 +6,11 @@
 
 namespace laser_mapper {
 
-/// The depth image of a stereo pair, thinned.
+/// Subsampled depth image of a stereo pair.
 struct DepthFrame {
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::Pose T_base_camera;                ///< left optical frame
-  float step = 1.0F;                                 ///< px of the full image, from sample to sample
+  float step = 1.0F;                                 ///< px of the full image, between samples
   float fx = 0.0F, fy = 0.0F, cx = 0.0F, cy = 0.0F;  ///< px, of the full image
   float focal_baseline = 0.0F;                       ///< px m: disparity times depth
   urban_nav_store::DepthView::Samples samples;

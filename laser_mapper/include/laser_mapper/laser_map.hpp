@@ -22,53 +22,54 @@ namespace laser_mapper {
 
 class RelativeCovariances;
 
-/// Removes the rendered chunks of a session from a store: the next map renders all of them.
+/// Removes the rendered chunks of a session from a store, so that the next map renders all of them.
 void forgetChunks(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
 
-/// A session of the map. The members pointed to must outlive the map.
+/// Session of the map. The members pointed to must outlive the map.
 struct MappedSession {
   urban_nav_store::SessionId id;
   const urban_nav_core::Trajectory* T_map_base = nullptr;
-  /// Of T_map_base, one per pose; may be shorter than the trajectory: poses without one count as exact.
+  /// Covariances of T_map_base, one per pose; poses without one, at the end, count as exact.
   const std::vector<urban_nav_core::Matrix6d>* covariances = nullptr;
 };
 
-/// What rendering did.
+/// Statistics of rendering.
 struct RenderStatistics {
   std::size_t chunks = 0;
-  std::size_t chunks_rendered = 0;    ///< the others were in the store, and their poses had not moved
+  std::size_t chunks_rendered = 0;    ///< the others were stored, with unchanged poses
   BeamCounts beams;                   ///< of all chunks
   std::vector<std::string> warnings;  ///< about the data
 };
 
-/// The map of the laser scans of sessions that lie in one map (Newman et al. 2009, section 6.1). Scans are read from
-/// the store, and rendered chunks are written to it: a chunk whose poses have moved by less than Parameters::max_shift
-/// since is not rendered again. Points that beams of other times passed through are left out (Parameters::ghosts).
-/// Memory depends on the width of the map, not on its length or on the duration of the sessions. The bytes do not
-/// depend on the number of threads. Not thread-safe.
+/// Map of the laser scans of sessions in one map frame (Newman et al. 2009, section 6.1). Scans are read from the
+/// store, and rendered chunks are written to it; a chunk is rendered again only if its poses moved by at least
+/// Parameters::max_shift. Points traversed by beams of other times are omitted (Parameters::ghosts). Memory depends on
+/// the width of the map, not on its length or on the duration of the sessions. The output is bit-identical for any
+/// number of threads. Not thread-safe.
 class LaserMap {
  public:
   using ProgressCallback = std::function<void(std::size_t done, std::size_t all)>;
   using TileCallback = std::function<void(const Tile& tile, const std::vector<MapPoint>& points)>;
   using PassCallback = std::function<void(std::size_t index, const std::vector<PassCells>& passes)>;
 
-  /// The store must outlive the map. Sessions without scans are left out.
+  /// The store must outlive the map. Sessions without scans are ignored.
   LaserMap(const Parameters& parameters, urban_nav_store::Store& store, std::vector<MappedSession> sessions);
 
-  /// Brings the chunks in the store up to date and commits them. Throws the errors of the store.
+  /// Updates the chunks in the store and commits them. Throws the errors of the store.
   RenderStatistics render(const ProgressCallback& progress = {});
 
-  /// Takes the chunks and uncertainties that render() left in the store, and changes nothing there. Chunks must have
-  /// been rendered along T_map_base with the parameters of this map.
+  /// Loads the chunks and uncertainties written by render(), without changing the store. Requires that chunks were
+  /// rendered along T_map_base with the parameters of this map.
   void load();
 
-  /// Calls `take` for the tiles that have points, in the order of Tile. Returns the number of beams left out because
-  /// beams of other times passed through their ends. Requires render() or load() before. Throws DataError if the store
-  /// is damaged.
+  /// Calls `take` for the tiles that have points, in the order of Tile. Returns the number of beams omitted because
+  /// beams of other times passed through their ends. Requires an earlier render() or load(). Throws DataError if the
+  /// store is damaged.
   std::size_t forEachTile(const TileCallback& take) const;
 
-  /// Calls `take` with the cells of each tile by passes, in the order of passes; `index`: of the tile in the order of
-  /// Tile. Calls for different tiles come from several threads at once. Requires and throws as forEachTile().
+  /// Calls `take` with the cells of each tile by pass, in the order of passes; `index`: of the tile in the order of
+  /// Tile. Calls for different tiles are concurrent. Requires an earlier render() or load(). Throws DataError if the
+  /// store is damaged.
   void forEachTileByPass(const PassCallback& take) const;
 
   const std::vector<SessionPasses>& passes() const { return passes_; }
@@ -78,7 +79,7 @@ class LaserMap {
 
  private:
   using Tiles = std::set<Tile>;
-  /// Cells of a chunk in a tile, as the store has them.
+  /// Packed cells of a chunk in a tile.
   struct PackedCells {
     CellSource source;
     std::string data;
@@ -97,11 +98,11 @@ class LaserMap {
   const std::vector<MappedSession> sessions_;
   std::vector<SessionPasses> passes_;
   std::vector<std::shared_ptr<const RelativeCovariances>> covariances_;  ///< by session; null: exact poses
-  Tiles tiles_;                                                          ///< that have cells in the store
+  Tiles tiles_;                                                          ///< tiles with cells in the store
 };
 
-/// Returns the parameters that the map of a session in a store was made with; nullopt if the store holds no map of it.
-/// Throws DataError if the store is damaged.
+/// Returns the parameters of the stored map of a session; nullopt if the store has none. Throws DataError if the store
+/// is damaged.
 std::optional<Parameters> storedMapParameters(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
 
 }  // namespace laser_mapper

@@ -19,12 +19,12 @@ urban_nav_core::PlyLayout mapLayout(const std::vector<SensorName>& sensors = {})
 /// Appends the bytes of a vertex of mapLayout().
 void appendVertex(std::string& bytes, const MapPoint& point);
 
-/// Returns the fields of a map as PCD, named as PCL (Rusu and Cousins 2011) names them.
+/// Returns the fields of a map as PCD, with the names of PCL (Rusu and Cousins 2011).
 std::vector<urban_nav_core::PcdField> mapPcdFields();
 /// Appends the bytes of a point of mapPcdFields().
 void appendPcdPoint(std::string& bytes, const MapPoint& point);
 
-/// Returns the attributes of a map in LAS files that the format itself does not know.
+/// Returns the attributes of a map in LAS files beyond those of the format.
 std::vector<urban_nav_core::LasAttribute> mapLasAttributes();
 /// Returns a point for LasWriter: the laser as scanner channel, the pass, counted from 1, as point source.
 urban_nav_core::LasPoint lasPoint(const MapPoint& point);

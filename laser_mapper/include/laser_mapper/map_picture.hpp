@@ -15,35 +15,35 @@ namespace laser_mapper {
 struct MapView {
   int width = 1200, height = 900;  ///< px
   urban_nav_core::Pose T_camera_map;
-  double px_per_m = 10.0;        ///< from above: of the parallel projection
-  double focal_px = 0.0;         ///< of the perspective; 0: parallel projection
+  double px_per_m = 10.0;        ///< of the parallel projection from above
+  double focal_px = 0.0;         ///< of the perspective projection; 0: parallel projection
   double near = 0.5, far = 1e9;  ///< m: points nearer or farther are not drawn
 };
 
-/// Returns a view from above, north of the picture along y of the map, that shows all poses and what lies within
-/// `margin` m of them. At most `longest` px wide and high.
+/// Returns a top view, with y of the map upwards, that contains all poses with `margin` m around them. At most
+/// `longest` px wide and high.
 MapView viewFromAbove(const std::vector<urban_nav_core::Vector3d>& path, double margin, int longest);
 
-/// Returns a view of the path from outside and above.
+/// Returns an oblique view of the path from outside and above.
 MapView viewInPerspective(const std::vector<urban_nav_core::Vector3d>& path, int width, int height);
 
-/// A part of a picture, px.
+/// Part of a picture, px.
 struct PictureBox {
   int u0 = 0, v0 = 0, width = 0, height = 0;
 };
 
-/// Draws points into a picture, nearest first, lit by their normals. Points may come in any order: equally near ones
-/// apart, the picture does not depend on it. Not thread-safe.
+/// Draws points into a picture with a depth buffer and shading by normals. The picture does not depend on the order of
+/// points, except for points of equal depth. Not thread-safe.
 class MapPicture {
  public:
   explicit MapPicture(const MapView& view);
   void draw(const std::vector<MapPoint>& points);
-  /// Draws a line over everything.
+  /// Draws a line on top of all points.
   void drawPath(const std::vector<urban_nav_core::Vector3d>& path);
-  /// Returns the box of the path and of the points, with an edge around it. Of the points, 0.1 % may lie beyond each of
-  /// its sides: single beams through a gate do not make the picture larger.
+  /// Returns the bounding box of the path and the points, with a margin. Up to 0.1 % of the points may lie beyond each
+  /// side, so that single distant beams do not enlarge the picture.
   PictureBox shownBox() const;
-  /// Fills small gaps between points, and returns the picture, or what is within the box.
+  /// Fills small gaps between points, and returns the picture or the part within a box.
   urban_nav_registration::Picture finish() const { return finish({0, 0, view_.width, view_.height}); }
   urban_nav_registration::Picture finish(const PictureBox& box) const;
 
@@ -59,7 +59,7 @@ class MapPicture {
   const MapView view_;
   const urban_nav_core::Matrix3d R_;
   std::vector<Pixel> pixels_;
-  std::vector<std::uint8_t> path_;  ///< 1 where the path is
+  std::vector<std::uint8_t> path_;  ///< 1 on the path
 };
 
 }  // namespace laser_mapper

@@ -11,14 +11,14 @@ namespace laser_mapper {
 /// Sensor model of the mixed-pixel test.
 struct MixedPixelModel {
   float range_sigma = 0.006F;  ///< m
-  float roughness = 0.01F;     ///< m: height of the unevenness of real surfaces
-  float min_jump = 0.03F;      ///< m: smaller steps in range are left to the noise
+  float roughness = 0.01F;     ///< m: roughness of real surfaces
+  float min_jump = 0.03F;      ///< m: smaller steps in range are attributed to noise
 };
 
-/// Returns a flag per beam: 1 if its range lies between those of its neighbours, continues neither the surface before
-/// it nor the one after it, and does not lie on the line between them. Such a beam has met two surfaces, and its end
-/// lies on neither (Tuley et al. 2005). On a plane the inverse of the range is a sinusoid of the angle, hence one beam
-/// is predicted by two others. Beams without two neighbours on a side are tested on the other side alone. Thread-safe.
+/// Returns a flag per beam: 1 if its range lies between those of its neighbours, continues neither of the adjacent
+/// surfaces, and does not lie on the line between them. Such a beam has hit two surfaces, and its end lies on neither
+/// (Tuley et al. 2005). On a plane the inverse range is a sinusoid of the angle, so one beam is predicted by two
+/// others. Beams without two neighbours on one side are tested on the other side only. Thread-safe.
 std::vector<std::uint8_t> findMixedPixels(const urban_nav_core::Scan& scan, const MixedPixelModel& model);
 
 }  // namespace laser_mapper

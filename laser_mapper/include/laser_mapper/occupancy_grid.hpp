@@ -16,19 +16,20 @@ namespace laser_mapper {
 /// Sizes of an OccupancyGrid, m.
 struct GridModel {
   double resolution = 0.1;        ///< edge of a cell
-  double margin = 30.0;           ///< around the path that the grid covers
-  double obstacle_height = 0.12;  ///< of the lowest obstacle above the ground around it: kerbs count
-  double robot_height = 1.5;      ///< points higher above the ground are no obstacle, beams there prove nothing
-  double robot_radius = 0.35;     ///< around each pose, where the robot has been
+  double margin = 30.0;           ///< around the path, covered by the grid
+  double obstacle_height = 0.12;  ///< least height of obstacles above the ground around them, includes kerbs
+  double robot_height = 1.5;      ///< points higher above the ground are not obstacles; beams at that height are not
+                                  ///< evidence of free space
+  double robot_radius = 0.35;     ///< around each pose, free because the robot was there
 };
 
-/// Returns where the beams of a point began; nullopt if it is unknown.
+/// Returns the origin of the beams of a point; nullopt if it is unknown.
 using BeamOrigin = std::function<std::optional<urban_nav_core::Vector3d>(const MapPoint& point)>;
 
-/// The map as a grid for planners: cells with obstacles, cells that beams passed over the ground, and unknown ones. The
-/// ground is followed from the path outwards, so that slopes are no obstacles. Order of calls: addSurface() for all
-/// points, findGround() once, addBeams() for all points, then image(). The result does not depend on the order of the
-/// points. Not thread-safe.
+/// Occupancy grid of the map for planners: cells with obstacles, cells that beams passed near the ground, and unknown
+/// ones. The ground is grown from the path outwards, so that slopes are not obstacles. Order of calls: addSurface() for
+/// all points, findGround() once, addBeams() for all points, then image(). The result does not depend on the order of
+/// the points. Not thread-safe.
 class OccupancyGrid {
  public:
   /// `path`: poses of base_link, which is on the ground.
@@ -38,7 +39,8 @@ class OccupancyGrid {
   void findGround();
   void addBeams(const std::vector<MapPoint>& points, const BeamOrigin& origin);
 
-  /// Cells of the image: 0 obstacle, 254 free, 205 unknown, as map_server reads them; rows from the north.
+  /// Returns the cells of the image in the encoding of map_server: 0 obstacle, 254 free, 205 unknown; rows from the
+  /// north.
   std::vector<std::uint8_t> image() const;
   int width() const { return width_; }
   int height() const { return height_; }
@@ -68,7 +70,7 @@ class OccupancyGrid {
 
 /// Returns the binary PGM of an image with one byte per pixel.
 std::string printPgm(const std::vector<std::uint8_t>& image, int width, int height);
-/// Returns the YAML that map_server reads a grid with; `image`: the name of the PGM.
+/// Returns the YAML of map_server for a grid; `image`: name of the PGM.
 std::string printGridYaml(const OccupancyGrid& grid, const GridModel& model, const std::string& image);
 
 }  // namespace laser_mapper

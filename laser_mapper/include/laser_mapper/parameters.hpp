@@ -7,7 +7,7 @@
 
 namespace laser_mapper {
 
-/// Settings of the map, one member per row of table().
+/// Parameters of the map, one member per row of table().
 struct Parameters {
   double voxel;        // m
   double min_range;    // m
@@ -27,7 +27,7 @@ struct Parameters {
   Parameters();
 };
 
-/// The only place where a default, a range, a unit or a sentence about a parameter is written.
+/// Returns the table, the only definition of defaults, ranges, units and descriptions of these parameters.
 const urban_nav_core::Table<Parameters>& table();
 
 }  // namespace laser_mapper

@@ -8,7 +8,7 @@
 
 namespace laser_mapper {
 
-/// Divides a session into passes: stretches of the path that visit no place twice.
+/// Division of a session into passes: parts of the path that visit no place twice.
 struct SessionPasses {
   struct Begin {
     urban_nav_core::StampNs stamp = 0;
@@ -20,8 +20,8 @@ struct SessionPasses {
   std::uint16_t at(urban_nav_core::StampNs stamp) const;
 };
 
-/// Returns the passes of sessions in one map. Numbers count on from session to session, up to 65535. A pass ends where
-/// the path comes within 10 m of a place that it left more than 40 m of travel ago.
+/// Returns the passes of sessions in one map, numbered consecutively over the sessions, up to 65535. A pass ends where
+/// the path comes within 10 m of a place that it left more than 40 m of path earlier.
 std::vector<SessionPasses> findPasses(const std::vector<const urban_nav_core::Trajectory*>& T_map_base);
 
 }  // namespace laser_mapper

@@ -13,7 +13,7 @@
 namespace laser_mapper {
 
 /// Sensor ids of points (MapPoint::laser, column `laser` of the files): 0 and 1 are the lasers at the frames laser_left
-/// and laser_right, 2...31 other planar lasers in the order of their frames, kFirstLidar + N the 3D LiDAR of role
+/// and laser_right, 2...31 other planar lasers in the order of their frames, kFirstLidar + N the 3D LiDAR with the role
 /// pointsN.
 constexpr std::uint8_t kFirstLidar = 32, kLastLidar = 126;
 /// Dense stereo.
@@ -30,30 +30,30 @@ std::uint8_t lidarSensor(const std::string& role);
 struct SensorName {
   std::uint8_t id = 0;
   std::string role;   ///< "laser_left", "points0", "stereo"; "laser" for planar lasers at other frames
-  std::string frame;  ///< of its measurements
+  std::string frame;  ///< frame of its measurements
 };
-/// Returns the sensors whose measurements sessions have in the store, ascending by id. An id that denotes different
-/// frames in different sessions has a row for each.
+/// Returns the sensors with stored measurements in the sessions, ascending by id. An id of different frames in
+/// different sessions has an entry for each.
 std::vector<SensorName> storedSensors(urban_nav_store::Store& store,
                                       const std::vector<urban_nav_store::SessionId>& sessions);
 
-/// Returns the poses of the lasers and LiDARs of a session on the robot, with the adopted calibration, by their ids.
+/// Returns the poses of a session's lasers and LiDARs on the robot, with the adopted calibration, by id.
 std::map<std::uint8_t, urban_nav_core::Pose> sensorPlaces(urban_nav_store::Store& store,
                                                           const urban_nav_store::SessionId& session);
 
-/// Returns what the map of a session lacks: "no laser scans, sweeps of a 3D LiDAR or depth images of dense stereo";
-/// empty if it can be made.
+/// Returns the measurements that a map of a session lacks: "no laser scans, sweeps of a 3D LiDAR or depth images of
+/// dense stereo"; empty if it can be made.
 std::string missingMeasurements(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
 
-/// Errors of a sensor's beams.
+/// Error model of a sensor's beams.
 struct BeamNoise {
   float range_sigma = 0.0F;  ///< m, standard deviation of a range
-  float far_factor = 1.0F;   ///< of the standard deviation beyond 20 m
+  float far_factor = 1.0F;   ///< factor of the standard deviation beyond 20 m
   float range_bias = 0.0F;   ///< m, standard deviation of the constant error of ranges
   float beam_width = 0.0F;   ///< rad, divergence
 };
-/// Returns the errors of a laser: of planar ones as the parameters state them, of 3D LiDARs those of the HDL-64E. Not
-/// of dense stereo, whose points have deviations of their own.
+/// Returns the error model of a sensor: for planar lasers from the parameters, for 3D LiDARs that of the HDL-64E. Not
+/// for dense stereo, whose points have individual standard deviations.
 BeamNoise beamNoise(const Parameters& parameters, std::uint8_t sensor);
 
 }  // namespace laser_mapper

@@ -8,40 +8,40 @@
 
 namespace laser_mapper {
 
-/// All beams of the map that ended in one cube.
+/// All beams of the map that ended in one voxel.
 struct MergedCell {
   Cell cell;
-  Eigen::Vector3f offset = Eigen::Vector3f::Zero();    ///< mean, from the cube's corner, in edges
+  Eigen::Vector3f offset = Eigen::Vector3f::Zero();    ///< mean, relative to the voxel's corner, in voxel edges
   Eigen::Vector3f to_laser = Eigen::Vector3f::Zero();  ///< mean direction towards the laser
-  float count = 0.0F, range = 0.0F, intensity = 0.0F;  ///< beams; means, m and raw value
-  std::uint8_t laser = 0;                              ///< of the pass below
-  std::uint16_t pass = 0;                              ///< that most of the beams came from
-  std::uint16_t session = 0;                           ///< index, of that pass
+  float count = 0.0F, range = 0.0F, intensity = 0.0F;  ///< beams; means, in m and raw values
+  std::uint8_t laser = 0;                              ///< sensor in the pass below
+  std::uint16_t pass = 0;                              ///< pass of most of the beams
+  std::uint16_t session = 0;                           ///< session index of that pass
   urban_nav_core::StampNs stamp = 0;                   ///< mean over that pass
 };
 
-/// Where cells of a chunk come from.
+/// Origin of the cells of a chunk.
 struct CellSource {
   std::uint16_t session = 0;
   std::uint16_t pass = 0;
-  urban_nav_core::StampNs begin = 0;  ///< of the chunk
+  urban_nav_core::StampNs begin = 0;  ///< beginning of the chunk
 };
 
-/// Adds up the chunks of one tile. The order of calls is part of the result. Not thread-safe.
+/// Accumulates the chunks of one tile. The result depends on the order of calls. Not thread-safe.
 class TileMerger {
  public:
   TileMerger() : table_(1 << 12) {}
-  /// What cells come from.
+  /// Origin of cells.
   enum class Kind { Lasers, Stereo };
-  /// Adds the cells of one kind; leaves ghosts out.
+  /// Adds the cells of one kind, except ghosts.
   void add(const CellSource& source, const std::vector<MapCell>& cells, Kind kind = Kind::Lasers);
-  /// Returns the number of beams left out since the last take().
+  /// Returns the number of beams omitted as ghosts since the last take().
   std::size_t ghostBeams() const { return ghost_beams_; }
-  /// Returns the cubes in the order in which they came, and becomes empty.
+  /// Returns the voxels in order of first occurrence, and clears the tile.
   std::vector<MergedCell> take();
 
  private:
-  /// Beams of the pass that a cube counts at present.
+  /// Beams of the pass that a voxel is counting.
   struct PassVotes {
     std::uint16_t session = 0, pass = 0;
     std::uint8_t laser = 0;
@@ -55,8 +55,8 @@ class TileMerger {
   std::vector<MergedCell> cells_;
   std::vector<PassVotes> votes_;
   std::size_t ghost_beams_ = 0;
-  std::vector<float> best_;     ///< beams of the pass that MergedCell names
-  std::vector<float> weights_;  ///< of all beams in the means of MergedCell
+  std::vector<float> best_;     ///< beams of the pass stored in MergedCell
+  std::vector<float> weights_;  ///< total weights of the means of MergedCell
 };
 
 }  // namespace laser_mapper

@@ -29,7 +29,7 @@ std::vector<std::uint32_t> findSeconds(const std::vector<std::vector<BrightnessR
   return seconds;
 }
 
-/// The row of a sighting as its three dense parts: terms, corrections around the view, corrections around the point.
+/// Row of an observation by its three dense parts: terms, corrections at the view, corrections at the point.
 struct RowParts {
   TermVector terms;
   std::array<CorrectionPair, 2> corrections;
@@ -94,7 +94,7 @@ class PlaceSum {
       const RowParts parts = divide(row);
       addProducts(parts);
       addScaled(parts, 1.0 / count, mean_);
-      addScaled(parts, residual - row.residual, sum_.gradient);  // the differences add up to zero: no part of the mean
+      addScaled(parts, residual - row.residual, sum_.gradient);  // differences sum to zero, so the mean has no effect
     }
     sum_.information.topLeftCorner<kCalibrationTerms, kCalibrationTerms>() -=
         count * mean_.head<kCalibrationTerms>() * mean_.head<kCalibrationTerms>().transpose();
@@ -105,7 +105,7 @@ class PlaceSum {
   }
 
   PlaceEquations sum_;
-  VectorXd mean_;  ///< of the rows of one point
+  VectorXd mean_;  ///< mean of the rows of one point
 };
 
 }  // namespace

@@ -16,13 +16,13 @@ using Eigen::VectorXd;
 
 namespace {
 
-// m between surfels of one place: errors of the calibration at first, then what is left of them.
+// m between surfels of one place: initially allows for errors of the calibration, then for the remaining ones.
 constexpr double kReaches[] = {0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.1, 0.1, 0.1, 0.1};
 constexpr int kRefinements = 4;
 constexpr double kLastReach = 0.1;     // m
-constexpr double kBeyondChance = 3.0;  // standard errors
+constexpr double kBeyondChance = 3.0;  // standard errors of significance
 
-/// The terms of all lasers of a session while they are estimated.
+/// Estimation of the terms of all lasers of a session.
 class Calibrator {
  public:
   Calibrator(const Parameters& parameters, urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
@@ -38,7 +38,7 @@ class Calibrator {
   const std::vector<TermVector>& terms() const { return terms_; }
   std::size_t places() const { return places_; }
 
-  /// Estimates the terms in `wanted`; the others stay zero.
+  /// Estimates the terms in `wanted`; the others remain zero.
   TermEstimate estimate(const std::vector<bool>& wanted) {
     for (std::size_t i = 0; i < terms_.size(); ++i)
       for (int t = 0; t < kCalibrationTerms; ++t)

@@ -20,12 +20,12 @@ namespace {
 
 constexpr double kBlock = 0.8;  // m
 constexpr std::uint32_t kFewestSurfelBeams = 12;
-constexpr double kMostSurfelThickness = 0.015;  // m: walls, paving and mown grass, as for the quality of the map
+constexpr double kMostSurfelThickness = 0.015;  // m: walls, paving and mown grass, as in the map quality
 constexpr double kLeastSurfelExtent = 0.1;      // m, standard deviation in the shorter direction
 constexpr double kAside = 0.6;                  // m
 constexpr double kMostSurfelTurn = 0.35;        // rad between normals
 constexpr double kHeldOutEdge = 4.0;            // m, of the squares that are held out as a whole
-constexpr int kHeldOutShare = 5;                // one in so many
+constexpr int kHeldOutShare = 5;                // one of this many
 
 Cell blockAt(const Vector3d& p) {
   const auto part = [](double value) { return static_cast<int>(std::floor(value / kBlock)); };
@@ -74,7 +74,7 @@ std::vector<BlockBeams> divideIntoBlocks(const SampledScans& samples, const std:
   return blocks;
 }
 
-/// Fits the plane of a surfel's beams; returns their standard deviation in its shorter direction, m.
+/// Fits the plane of a surfel's beams; returns their standard deviation in the shorter direction, m.
 double fitSurfel(const SampledScans& samples, const std::vector<ScanPlace>& places,
                  const std::vector<std::uint32_t>& beams, CalibrationSurfel& surfel) {
   Vector3d reference = Vector3d::Zero(), first = Vector3d::Zero(), from_laser = Vector3d::Zero();
@@ -129,7 +129,7 @@ bool isHeldOut(const Vector3d& p) {
   return ((hash ^ (hash >> 29U)) * 0xbf58476d1ce4e5b9U >> 33U) % kHeldOutShare == 0;
 }
 
-/// Surfels by their blocks.
+/// Index of surfels by block.
 class SurfelIndex {
  public:
   explicit SurfelIndex(const std::vector<CalibrationSurfel>& surfels) : table_(surfels.size()) {

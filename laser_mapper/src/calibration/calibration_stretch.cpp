@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kHeldOutReach = 0.5;                       // m between surfels of a held-out place
-constexpr double kRobust = 2.5 * 1.48, kLeastScale = 0.01;  // of the median spread; m
+constexpr double kRobust = 2.5 * 1.48, kLeastScale = 0.01;  // factor of the median spread; m
 constexpr std::size_t kPatchBatch = 512;                    // places whose equations are in memory at a time
 
 double patchSpread(const CalibrationPatch& patch, const std::vector<CalibrationSurfel>& surfels) {
@@ -39,7 +39,7 @@ double medianSpread(const std::vector<CalibrationPatch>& patches, const std::vec
   return spreads[spreads.size() / 2];
 }
 
-// Columns of a beam's row: terms of its laser, correction at the beginning and at the end of its second, plane,
+// Columns of a beam's row: terms of its laser, corrections at the beginning and at the end of its second, plane,
 // residual.
 constexpr int kCorrections = kCalibrationTerms, kPlane = kCorrections + 12, kResidual = kPlane + 3,
               kColumns = kResidual + 1;
@@ -81,8 +81,8 @@ RowProducts surfelProducts(const SampledScans& samples, const CalibrationPatch& 
   return products;
 }
 
-/// Beams of one surfel share the constant error of the laser: more of them do not lower it. `ratio`: of its offset over
-/// the robust scale.
+/// Returns the weight of a surfel. Its beams share the constant error of the laser, which their number does not reduce.
+/// `ratio`: of its offset to the robust scale.
 double surfelWeight(const Parameters& parameters, const CalibrationSurfel& surfel, double ratio) {
   const double noise = std::max(surfel.thickness, parameters.range_sigma), bias = parameters.range_bias;
   return 1.0 / ((noise * noise + surfel.beams() * bias * bias) * (1.0 + ratio * ratio));
@@ -104,7 +104,7 @@ std::vector<ScanPlace> CalibrationStretch::placesWith(const std::vector<TermVect
   return placeScans(samples_, lasers_, terms, T_map_base_, corrections, std::llround(1e9 * parameters_.max_gap));
 }
 
-/// Equations without the plane of the place.
+/// Returns the equations with the plane of the place eliminated.
 PlaceEquations CalibrationStretch::linearisePatch(const CalibrationPatch& patch, const SurfelSet& set,
                                                   const std::vector<ScanPlace>& places, double scale) const {
   PlaceEquations equations;

@@ -10,25 +10,25 @@
 
 namespace laser_mapper {
 
-/// A stretch of a session whose beams calibrate its lasers. Unknown besides their terms are the plane of every place,
-/// and the trajectory as FreeTrajectory corrects it. Not thread-safe.
+/// Interval of a session whose beams calibrate its lasers. Further unknowns are the plane of every place, and the
+/// trajectory as corrected by FreeTrajectory. Not thread-safe.
 class CalibrationStretch {
  public:
-  /// References must outlive the stretch.
+  /// The arguments must outlive this object.
   CalibrationStretch(const Parameters& parameters, const std::vector<MountedLaser>& lasers,
                      const urban_nav_core::Trajectory& T_map_base, const urban_nav_core::OdometryChain* odometry,
                      SampledScans samples);
 
   /// Matches surfels up to `reach` (m) apart and returns the equations at these terms, without held-out places.
   TermEquations linearise(const std::vector<TermVector>& terms, double reach);
-  /// Moves the trajectory as the equations of the last linearise() ask for with this change of all terms.
+  /// Applies the corrections of the trajectory from the last linearise() for this change of all terms.
   void moveTrajectory(const Eigen::VectorXd& change) { trajectory_.move(change); }
 
-  /// Spread of one held-out place along the trajectory as given.
+  /// Spread of one held-out place along the given trajectory.
   struct Spread {
     double stated = 0.0, calibrated = 0.0;  ///< m
   };
-  /// Compares the held-out places with the stated calibration, where surfels are matched, and with `terms`.
+  /// Compares the held-out places with the stated calibration, at which surfels are matched, and with `terms`.
   std::vector<Spread> compareHeldOut(const std::vector<TermVector>& terms) const;
 
  private:

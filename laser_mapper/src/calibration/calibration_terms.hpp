@@ -15,7 +15,7 @@ inline double delaySeconds(const TermVector& terms) { return terms(0); }
 inline urban_nav_core::Pose statedToTrue(const TermVector& terms) {
   return urban_nav_core::Pose(urban_nav_core::expSo3(terms.tail<3>()), terms.segment<3>(1));
 }
-/// Returns the terms after a small change, whose turn is about the axes of the frame as stated.
+/// Returns the terms after a small change, whose rotation is about the axes of the frame as stated.
 inline TermVector changedTerms(const TermVector& terms, const TermVector& change) {
   TermVector changed = terms + change;
   changed.tail<3>() =

@@ -18,12 +18,12 @@ namespace {
 
 constexpr int kRoundsPerLevel = 4, kFinestRounds = 10;
 constexpr float kBrightnessClip =
-    0.3F;  // of the logarithm of the brightness: a view that differs more shows something else
+    0.3F;  // of the logarithm of the brightness: larger differences are occlusions
 constexpr int kExposureRounds = 5;
-constexpr std::size_t kFewestSightings = 3;  // of a point
+constexpr std::size_t kFewestSightings = 3;  // views per point
 constexpr double kHeadPlaceEdge = 2.0;       // m
-constexpr double kHeadBeyondChance = 3.0;    // standard errors
-constexpr double kLeastRowVariance = 1e-12;  // of logarithms: images without noise
+constexpr double kHeadBeyondChance = 3.0;    // standard errors of significance
+constexpr double kLeastRowVariance = 1e-12;  // of logarithms: for images without noise
 constexpr std::size_t kPlaceBatch = 64;      // places whose equations are in memory at a time
 
 float medianBrightness(std::vector<float>& values) {
@@ -43,16 +43,16 @@ std::vector<FreeTrajectory> freeStretches(const urban_nav_core::Trajectory& T_ma
 
 }  // namespace
 
-/// Sum of the squared differences of the views of the points in one place.
+/// Sum of squared differences of the views of the points in one place.
 struct HeadFit::PlaceSpread {
   double squares = 0.0, sightings = 0.0;
 };
 
-/// A point that several views show.
+/// Point observed by several views.
 struct HeadFit::PointRows {
   HeadPoint point;
   std::uint32_t place = 0;
-  float median = 0.0F;  ///< brightness less the exposures
+  float median = 0.0F;  ///< brightness minus exposures
 
   bool isNear(const HeadRow& row) const { return row.is_seen && std::abs(row.brightness - median) < kBrightnessClip; }
 };
@@ -77,7 +77,7 @@ HeadFit::HeadFit(const HeadImages& images, const urban_nav_core::Trajectory& T_m
   distance_ = std::sqrt(distance_ / static_cast<double>(std::max<std::size_t>(1, place_of_.size())));
 }
 
-/// By medians over points and views in turn.
+/// Alternates medians over points and over views.
 void HeadFit::estimateExposures(const std::vector<HeadRow>& rows) {
   std::vector<float> points(views_.images().points.size(), 0.0F);
   for (int round = 0; round < kExposureRounds; ++round) {
@@ -97,7 +97,7 @@ void HeadFit::estimateExposures(const std::vector<HeadRow>& rows) {
   }
 }
 
-/// Returns the points of places that are held out, or not, and that several views show. `rows`: less the exposures.
+/// Returns the points of held-out places, or of the others, with several views. `rows`: minus the exposures.
 std::vector<HeadFit::PointRows> HeadFit::usablePoints(const std::vector<HeadRow>& rows, bool held_out) const {
   std::vector<PointRows> usable;
   std::vector<float> values;
@@ -112,7 +112,7 @@ std::vector<HeadFit::PointRows> HeadFit::usablePoints(const std::vector<HeadRow>
   return usable;
 }
 
-/// Returns the rows of the views of a point that differ little from their median; none if there are fewer than two.
+/// Returns the rows of a point's views that are near their median; none if there are fewer than two.
 std::vector<BrightnessRow> HeadFit::brightnessRows(const std::vector<HeadRow>& rows, const PointRows& point) const {
   const HeadPoint& at = point.point;
   Eigen::Vector2f texture = Eigen::Vector2f::Zero();
@@ -143,7 +143,7 @@ std::vector<BrightnessRow> HeadFit::brightnessRows(const std::vector<HeadRow>& r
   return made;
 }
 
-/// Equations of the terms, from which the brightness of each point and the trajectory are eliminated.
+/// Returns the equations of the terms with the brightness of each point and the trajectory eliminated.
 TermEquations HeadFit::linearise(std::vector<HeadRow> rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].brightness -= exposures_[views_.images().sightings[i].view];
   std::vector<PointRows> points = usablePoints(rows, false);
@@ -152,7 +152,7 @@ TermEquations HeadFit::linearise(std::vector<HeadRow> rows) {
   const auto order = [](const PointRows& each) { return std::make_pair(each.point.measured.stretch, each.place); };
   std::stable_sort(points.begin(), points.end(),
                    [&](const PointRows& a, const PointRows& b) { return order(a) < order(b); });
-  std::vector<std::size_t> begins;  // of the points in one place and stretch
+  std::vector<std::size_t> begins;  // points in one place and interval
   for (std::size_t i = 0; i < points.size(); ++i)
     if (i == 0 || order(points[i - 1]) != order(points[i])) begins.push_back(i);
   begins.push_back(points.size());
@@ -175,7 +175,7 @@ TermEquations HeadFit::linearise(std::vector<HeadRow> rows) {
   return sum;
 }
 
-/// Mean square of the differences of the views of a point, over all points; 0 if no two views show one point.
+/// Returns the mean squared difference of a point's views, over all points; 0 if no point has two views.
 double HeadFit::rowVariance(const std::vector<HeadRow>& rows, const std::vector<PointRows>& points) {
   double squares = 0.0, freedom = 0.0;
   for (const PointRows& point : points) {
@@ -194,7 +194,8 @@ double HeadFit::rowVariance(const std::vector<HeadRow>& rows, const std::vector<
   return freedom > 0.0 ? std::max(squares / freedom, kLeastRowVariance) : 0.0;
 }
 
-/// Points that are all off by as much look like a head that is shifted by that, or turned by that over their distance.
+/// A common range error of all points is equivalent to a shift of the head by it, or a rotation by it over their
+/// distance.
 void HeadFit::addRangeBias(const std::vector<bool>& wanted, TermEstimate& estimate) const {
   const double variance = range_bias_ * range_bias_, squared_distance = std::max(1.0, distance_ * distance_);
   for (Index t = 1; t < kCalibrationTerms; ++t)
@@ -208,7 +209,7 @@ TermEstimate HeadFit::estimate(const std::vector<bool>& wanted) {
   return estimate;
 }
 
-/// What the images say.
+/// Estimates the terms from the images only.
 TermEstimate HeadFit::fit(const std::vector<bool>& wanted) {
   for (Index t = 0; t < kCalibrationTerms; ++t)
     if (!wanted[static_cast<std::size_t>(t)]) terms_(t) = 0.0;

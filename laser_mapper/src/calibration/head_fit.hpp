@@ -9,32 +9,31 @@
 
 namespace laser_mapper {
 
-/// Fits the terms of a head of cameras to its images: the brightness of a point, less the exposure of each image, must
-/// be the same in all views. How the brightness varies along the surface is what the views say on average: that of one
-/// view is so noisy that views which do not differ would seem to tell something. The trajectory, along which the points
-/// were measured and the views taken, is corrected as FreeTrajectory does. Cubes of 2 m of the map are the places; a
-/// fifth of them is held out. The result does not depend on the number of threads. Not thread-safe.
+/// Fits the terms of a camera head to its images: the brightness of a point, minus the exposure of each image, must be
+/// equal in all views. The gradient of brightness along the surface is averaged over the views, because that of a
+/// single view is so noisy that identical views would appear informative. The trajectory, along which points and views
+/// were taken, is corrected by FreeTrajectory. The places are cubes of 2 m of the map; a fifth of them is held out. The
+/// result does not depend on the number of threads. Not thread-safe.
 class HeadFit {
  public:
-  /// References must outlive the fit, but for `odometry` (null if nothing is known). `centre`: of the head, in
-  /// base_link. `range_bias`: standard deviation of a laser's constant error, m.
+  /// The arguments must outlive this object, except `odometry` (null if unknown). `centre`: of the head, in base_link.
+  /// `range_bias`: standard deviation of a laser's constant error, m.
   HeadFit(const HeadImages& images, const urban_nav_core::Trajectory& T_map_base,
           const urban_nav_core::OdometryChain* odometry, const urban_nav_core::Vector3d& centre, double range_bias);
 
-  /// Estimates the terms in `wanted`; the others are zero. Without terms if no point is seen by several views.
-  /// Covariance: what the images say, and what a constant error of the lasers, which the whole map shares, would look
-  /// like.
+  /// Estimates the terms in `wanted`; the others are zero. Returns no terms if no point has several views. The
+  /// covariance includes the images and the effect of a constant error of the lasers, which is common to the whole map.
   TermEstimate estimate(const std::vector<bool>& wanted);
 
-  /// Spread of the brightness of points over their views in the held-out places, as a share of it.
+  /// Relative spread of the brightness of points over their views in the held-out places.
   struct HeldOut {
     std::size_t places = 0;
     double stated = 0.0, calibrated = 0.0;
-    bool improves = false;  ///< beyond chance
+    bool improves = false;  ///< significantly
   };
-  /// Compares the stated calibration with the last estimate, along the trajectory as given.
+  /// Compares the stated calibration with the last estimate, along the given trajectory.
   HeldOut compareHeldOut();
-  /// Returns the number of places that the last estimate rests on.
+  /// Returns the number of places of the last estimate.
   std::size_t places() const { return equations_places_; }
 
  private:
@@ -50,7 +49,7 @@ class HeadFit {
   void addRangeBias(const std::vector<bool>& wanted, TermEstimate& estimate) const;
   std::vector<PlaceSpread> spreadsAt(const TermVector& terms);
 
-  std::vector<FreeTrajectory> stretches_;  ///< of the trajectory, in order of time
+  std::vector<FreeTrajectory> stretches_;  ///< intervals of the trajectory, in order of time
   const HeadViews views_;
   std::vector<std::uint32_t> place_of_;    ///< of each point
   std::vector<std::uint8_t> is_held_out_;  ///< of each place
@@ -58,7 +57,7 @@ class HeadFit {
   TermVector terms_ = TermVector::Zero();
   std::size_t equations_places_ = 0;
   double range_bias_;
-  double distance_ = 0.0;  ///< of the points from where the robot was, root mean square, m
+  double distance_ = 0.0;  ///< root mean square distance of the points from the robot, m
 };
 
 }  // namespace laser_mapper

@@ -14,12 +14,13 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kNearestSeen = 0.3, kLensStep = 1e-4;  // m; of the tangents, for differences
-constexpr double kLeastIncidence = 0.2;  // cosine: farther from the normal, a view shows little of a surface
+constexpr double kNearestSeen = 0.3, kLensStep = 1e-4;  // m; step of the tangents for numeric derivatives
+constexpr double kLeastIncidence = 0.2;  // cosine: at larger angles to the normal, a view has little information on a
+                                         // surface
 constexpr std::size_t kHeadPointGrain = 32;
 constexpr urban_nav_core::StampNs kLongestMomentGap = 500'000'000;
 
-/// A pixel, and its derivatives with respect to the point in the frame of the camera.
+/// Pixel, and its derivatives with respect to the point in the frame of the camera.
 struct LensPoint {
   Vector2d pixel;
   Eigen::Matrix<double, 2, 3> derivatives;
@@ -59,7 +60,7 @@ HeadMoment HeadViews::momentAt(urban_nav_core::StampNs stamp) const {
   return moment;
 }
 
-/// Returns by how much the corrections of the trajectory move a point in the map, as seen from a view.
+/// Returns the displacement of a map point by the corrections of the trajectory, as seen from a view.
 Vector3d HeadViews::displacement(const HeadMoment& measured, const HeadMoment& seen, const Vector3d& p) const {
   const auto moved = [&](const HeadMoment& moment) {
     const PoseCorrection correction = stretches_[moment.stretch].correctionAt(moment.share);

@@ -11,62 +11,62 @@
 
 namespace laser_mapper {
 
-/// A sample of the map that a view shows, by their indices.
+/// Sample of the map visible in a view, by their indices.
 struct HeadSighting {
   std::uint32_t point = 0, view = 0;
 };
 
-/// Images of a head of cameras, and what they show of the map.
+/// Images of a camera head, and the points of the map visible in them.
 struct HeadImages {
   std::vector<MountedView> views;
   std::vector<urban_nav_core::Pyramid> pyramids;  ///< of the views, kHeadLevels each; empty ones are not used
   std::vector<Eigen::Vector3d> points, normals;   ///< m, in the map; unit
-  std::vector<urban_nav_core::StampNs> stamps;    ///< of the beams that made the points
+  std::vector<urban_nav_core::StampNs> stamps;    ///< of the beams of the points
   std::vector<HeadSighting> sightings;            ///< by point, then view
 };
 constexpr int kHeadLevels = 4;
 
-/// When and from where something of the map was measured.
+/// Time and position of a measurement.
 struct HeadMoment {
-  std::uint32_t stretch = 0;  ///< of the trajectory
+  std::uint32_t stretch = 0;  ///< interval of the trajectory
   FreeTrajectory::Share share;
   Eigen::Vector3d base = Eigen::Vector3d::Zero();  ///< position of the robot in the map, m
 };
 
-/// A point with its sightings first...last - 1.
+/// Point with its observations first...last - 1.
 struct HeadPoint {
   HeadMoment measured;
   std::size_t first = 0, last = 0;
 };
 
-/// What a view shows of a point at some terms.
+/// Brightness of a point in a view at some terms.
 struct HeadRow {
   using TermShifts = Eigen::Matrix<float, 2, kCalibrationTerms>;
   using PointShifts = Eigen::Matrix<float, 2, 3>;
 
   float brightness = 0.0F;  ///< logarithm
   bool is_seen = false;
-  std::array<float, 2> texture{};  ///< slope of the brightness along two axes of the surface, per m
-  /// How far what the view shows moves along these axes, m per s, m and rad of the terms: TermShifts.
+  std::array<float, 2> texture{};  ///< gradient of brightness along two axes of the surface, per m
+  /// Displacement of the observed surface point along these axes, m per s, m and rad of the terms: TermShifts.
   std::array<float, 2 * kCalibrationTerms> shifts{};
-  std::array<float, 6> motion{};  ///< and per m by which the point moves along each axis of the map: PointShifts
+  std::array<float, 6> motion{};  ///< and per m of displacement of the point along each axis of the map: PointShifts
 };
 
-/// Looks up what the views of a head of cameras show of points of the map. Thread-safe while the stretches do not
-/// change.
+/// Samples the views of a camera head at points of the map. Thread-safe while the intervals do not change.
 class HeadViews {
  public:
-  /// References must outlive it. `centre`: of the head, in base_link. `stretches`: of the trajectory, in order of time.
+  /// The arguments must outlive this object. `centre`: of the head, in base_link. `stretches`: of the trajectory, in
+  /// order of time.
   HeadViews(const HeadImages& images, const urban_nav_core::Trajectory& T_map_base,
             const urban_nav_core::Vector3d& centre, const std::vector<FreeTrajectory>& stretches);
 
   const HeadImages& images() const { return images_; }
-  /// Points that are seen, in the order of the sightings.
+  /// Returns the visible points, in the order of the observations.
   const std::vector<HeadPoint>& points() const { return points_; }
-  /// Returns when the view of a sighting was taken.
+  /// Returns time and position of the view of an observation.
   const HeadMoment& moment(std::size_t sighting) const { return moments_[images_.sightings[sighting].view]; }
-  /// Returns a row for each sighting. `level`: of the images. `corrected`: along the trajectory as its stretches
-  /// correct it, not as it was given.
+  /// Returns a row per observation. `level`: of the images. `corrected`: use the corrections of the intervals instead
+  /// of the given trajectory.
   std::vector<HeadRow> rowsAt(const TermVector& terms, int level, bool corrected) const;
 
  private:

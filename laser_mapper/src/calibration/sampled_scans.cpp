@@ -15,7 +15,7 @@ namespace {
 
 constexpr StampNs kScanSpacing = 40'000'000, kWindow = 1'000'000'000;
 constexpr std::size_t kSampledBeamStep = 2;
-constexpr double kFarthest = 20.0;  // m: beyond, neighbouring beams are too far apart to show a plane
+constexpr double kFarthest = 20.0;  // m: farther beams are too sparse to determine a plane
 
 void appendScan(const Parameters& parameters, const Scan& scan, std::uint8_t laser, SampledScans& samples) {
   MixedPixelModel model;

@@ -9,12 +9,12 @@
 
 namespace laser_mapper {
 
-/// A part of the beams of a stretch of a session, enough to calibrate with.
+/// Subset of the beams of an interval that suffices for calibration.
 struct SampledScans {
   struct Scan {
     urban_nav_core::StampNs middle = 0;  ///< as stamped
     std::uint8_t laser = 0;              ///< index in the list of lasers
-    std::uint32_t window = 0;            ///< whole seconds since `begin`
+    std::uint32_t window = 0;            ///< integer seconds since `begin`
     std::uint32_t first = 0, last = 0;   ///< beams first...last - 1
   };
   struct Beam {

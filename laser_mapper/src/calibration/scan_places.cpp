@@ -13,7 +13,7 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-constexpr StampNs kMotionSpan = 25'000'000;  // before and after, for the motion: half a period of the cameras
+constexpr StampNs kMotionSpan = 25'000'000;  // before and after, for the velocity: half a period of the cameras
 constexpr std::size_t kGrain = 256;
 
 }  // namespace

@@ -9,10 +9,10 @@
 
 namespace laser_mapper {
 
-/// Correction of a pose as boxPlus() applies it: translation, then rotation vector, in the axes of the map.
+/// Correction of a pose by boxPlus(): translation, then rotation vector, in the axes of the map.
 using PoseCorrection = urban_nav_core::Vector6d;
 
-/// Where a scan was measured from, with the motion around its middle.
+/// Pose of a scan, with the motion around its middle.
 struct ScanPlace {
   bool is_known = false;
   Eigen::Vector3d base = Eigen::Vector3d::Zero();          ///< of the robot in the map, m
@@ -21,20 +21,21 @@ struct ScanPlace {
   Eigen::Matrix3d R_map_laser = Eigen::Matrix3d::Zero();   ///< of the laser
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< m/s
   Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();     ///< rad/s
-  double share = 0.0;  ///< of the correction at the end of the scan's window; 1 - share of that at its beginning
+  double share = 0.0;  ///< weight of the correction at the end of the scan's window; 1 - share is that of the one at
+                       ///< its beginning
 
-  /// Returns the end of a beam as seen from the robot, axes of the map.
+  /// Returns the end of a beam relative to the robot, axes of the map.
   Eigen::Vector3d fromRobot(const SampledScans::Beam& beam) const {
     const Eigen::Vector3d m = lever + R_map_laser * beam.ray.cast<double>();
     return m + static_cast<double>(beam.seconds) * turn_rate.cross(m);
   }
-  /// Returns its end in the map.
+  /// Returns the end of a beam in the map.
   Eigen::Vector3d inMap(const SampledScans::Beam& beam) const {
     return base + static_cast<double>(beam.seconds) * velocity + fromRobot(beam);
   }
 };
 
-/// Returns the places of all scans with the given terms of each laser and corrections of the trajectory at whole
+/// Returns the poses of all scans with the given terms of each laser and corrections of the trajectory at integer
 /// seconds. Scans at times without a pose have none.
 std::vector<ScanPlace> placeScans(const SampledScans& samples, const std::vector<MountedLaser>& lasers,
                                   const std::vector<TermVector>& terms, const urban_nav_core::Trajectory& T_map_base,

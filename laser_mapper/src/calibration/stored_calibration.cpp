@@ -20,7 +20,7 @@ Vector3d adoptedVector(const DeviceCalibration& laser, CalibrationTerm first) {
   return {laser.terms[begin].adopted, laser.terms[begin + 1].adopted, laser.terms[begin + 2].adopted};
 }
 
-/// Returns the adopted calibration of a session: of its panorama alone, or of its lasers alone.
+/// Returns the adopted calibration of a session: either of its panorama or of its lasers.
 std::vector<AdoptedCalibration> readDevices(Store& store, const SessionId& session, bool panorama) {
   std::vector<AdoptedCalibration> devices = urban_nav_registration::readCalibration(store, session);
   devices.erase(std::remove_if(devices.begin(), devices.end(),

@@ -15,12 +15,12 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kDelay = 0.05, kShift = 0.05, kTurn = 0.05;  // s, m, rad: what careful hands leave
+constexpr double kDelay = 0.05, kShift = 0.05, kTurn = 0.05;  // s, m, rad: typical errors of careful manual calibration
 constexpr double kConstrainedShare = 1.0 / 3.0;               // of the prior's standard deviation
 constexpr double kSignificance = 0.999;
-constexpr double kTogether = 0.5;  // correlation from which terms are named together
+constexpr double kTogether = 0.5;  // correlation above which terms are reported together
 
-/// Terms of one laser that are chosen as a whole.
+/// Terms of one laser that are selected together.
 struct Group {
   Index first = 0, size = 1;
 };
@@ -33,7 +33,7 @@ std::vector<Group> groupsOf(Index terms) {
   return groups;
 }
 
-/// Gaussian of the terms of some groups if all others are zero.
+/// Gaussian of the terms of some groups given that all others are zero.
 struct Conditional {
   VectorXd mean;
   MatrixXd covariance;
@@ -57,7 +57,7 @@ Conditional conditionOn(const TermEstimate& estimate, const MatrixXd& informatio
   return {*covariance * right, *covariance};
 }
 
-/// Returns the probability that chance makes a group smaller than it is.
+/// Returns the probability of a smaller estimate of the group by chance.
 double significanceOf(const Conditional& conditional, Index first, Index size) {
   const VectorXd mean = conditional.mean.segment(first, size);
   const auto information =
@@ -148,7 +148,7 @@ TermSelection selectTerms(std::size_t terms,
     selection.chosen = estimate(selection.significant);
     if (selection.chosen.mean.size() == 0) selection.significant.assign(terms, false);
     is_settled = true;
-    for (std::size_t term = 0; term < terms; ++term)  // what is not observable beside the others goes
+    for (std::size_t term = 0; term < terms; ++term)  // remove terms that are not observable together with the others
       if (selection.significant[term] && !selection.chosen.isConstrained(static_cast<Index>(term)))
         selection.significant[term] = is_settled = false;
     is_settled = is_settled || !selection.holdsAny();

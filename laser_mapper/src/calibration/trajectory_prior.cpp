@@ -13,9 +13,9 @@ using urban_nav_core::Vector6d;
 namespace {
 
 constexpr StampNs kSecond = 1'000'000'000;
-constexpr double kLeastStep = 1e-3, kLeastTurn = 3e-4;  // m, rad: in a second, what interpolation between poses leaves
-constexpr double kUnknownStep = 0.1, kUnknownTurn = 0.02;  // m, rad: where odometry says nothing
-constexpr double kFirst = 1e-6;                            // m, rad: the map as a whole does not move
+constexpr double kLeastStep = 1e-3, kLeastTurn = 3e-4;     // m, rad: interpolation error of poses within a second
+constexpr double kUnknownStep = 0.1, kUnknownTurn = 0.02;  // m, rad: without odometry
+constexpr double kFirst = 1e-6;                            // m, rad: fixes the map as a whole
 
 Matrix6d squares(double step, double turn) {
   Vector6d diagonal;
@@ -23,7 +23,7 @@ Matrix6d squares(double step, double turn) {
   return diagonal.asDiagonal();
 }
 
-/// Turns a covariance from the axes of a pose into those of its parent.
+/// Rotates a covariance from the axes of a pose to those of its parent.
 Matrix6d turned(const Matrix6d& covariance, const Matrix3d& R) {
   Matrix6d both = Matrix6d::Zero();
   both.topLeftCorner<3, 3>() = both.bottomRightCorner<3, 3>() = R;

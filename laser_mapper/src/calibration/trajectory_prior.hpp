@@ -9,11 +9,11 @@
 
 namespace laser_mapper {
 
-/// What odometry says about corrections of a trajectory at whole seconds: a random walk from zero, each step with the
-/// covariance of odometry there and at least 1 mm and 0.3 mrad. Immutable, so thread-safe.
+/// Prior of the corrections of a trajectory at integer seconds, from odometry: a random walk from zero, each step with
+/// the covariance of odometry and at least 1 mm and 0.3 mrad. Immutable, hence thread-safe.
 class TrajectoryPrior {
  public:
-  /// Corrections at `begin`, one second later, and so on, `count` of them. `odometry`: null if nothing is known.
+  /// For `count` corrections at `begin`, one second later, and so on. `odometry`: null if unknown.
   TrajectoryPrior(const urban_nav_core::Trajectory& T_map_base, const urban_nav_core::OdometryChain* odometry,
                   urban_nav_core::StampNs begin, std::size_t count);
 
@@ -26,7 +26,7 @@ class TrajectoryPrior {
 
  private:
   struct Step {
-    urban_nav_core::Matrix6d carry = urban_nav_core::Matrix6d::Identity();  ///< of a correction to the next second
+    urban_nav_core::Matrix6d carry = urban_nav_core::Matrix6d::Identity();  ///< from a correction to the next second
     urban_nav_core::Matrix6d information = urban_nav_core::Matrix6d::Identity();
   };
   std::vector<Step> steps_;

@@ -19,13 +19,13 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr std::size_t kMostSamples = 20000;
-constexpr double kMostPixels = 1e8;                // of all views: some 130 MB with their halved copies
-constexpr StampNs kViewWindow = 30'000'000'000;    // of views that are used or left out together
+constexpr double kMostPixels = 1e8;                // of all views: about 130 MB with their pyramids
+constexpr StampNs kViewWindow = 30'000'000'000;    // views of an interval are used or ignored together
 constexpr StampNs kLongestApart = 20'000'000'000;  // between the beams of a point and a view of it
 constexpr StampNs kViewMargin = 300'000'000, kLongestViewGap = 500'000'000;
 
-/// Returns the views at times that the trajectory covers, whatever the delay, and of every so-manieth window of time
-/// that their images fit into memory.
+/// Returns the views at times covered by the trajectory for any delay, from every n-th interval such that their images
+/// fit into memory.
 std::vector<MountedView> usableViews(std::vector<MountedView> views, const urban_nav_core::Trajectory& T_map_base) {
   double pixels = 0.0;
   StampNs begin = 0;

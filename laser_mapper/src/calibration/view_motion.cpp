@@ -13,7 +13,7 @@ using urban_nav_core::Trajectory;
 namespace {
 
 constexpr StampNs kLongestPoseGap = 500'000'000;
-constexpr double kDelayStep = 0.01, kPoseStep = 1e-4;  // s; m and rad: of the differences
+constexpr double kDelayStep = 0.01, kPoseStep = 1e-4;  // s; m and rad: steps of numeric derivatives
 
 std::optional<Pose> cameraFromMap(const MountedView& view, const Trajectory& T_map_base, const Vector3d& centre,
                                   const TermVector& terms) {

@@ -10,18 +10,19 @@
 
 namespace laser_mapper {
 
-/// Returns what terms of a head of cameras make of their poses: T_base_camera = this * T_base_camera as stated. Shift
+/// Returns the correction of a camera head by its terms: T_base_camera = correction * T_base_camera as stated. Shift
 /// and turn are in the axes of base_link, the turn about `centre`.
 urban_nav_core::Pose headCorrection(const TermVector& terms, const urban_nav_core::Vector3d& centre);
 
-/// Where points of the map are in the frame of a camera, q = R p + t, and how that changes with the terms of its head.
+/// Transform of map points to the frame of a camera, q = R p + t, with derivatives with respect to the terms of its
+/// head.
 struct ViewMotion {
   Eigen::Matrix3d R;
   Eigen::Vector3d t;
   std::array<Eigen::Matrix3d, kCalibrationTerms> dR;  ///< per s, m and rad
   std::array<Eigen::Vector3d, kCalibrationTerms> dt;
 
-  /// Returns the derivatives of q, a column for each term.
+  /// Returns the derivatives of q, a column per term.
   Eigen::Matrix<double, 3, kCalibrationTerms> derivatives(const Eigen::Vector3d& p) const;
 };
 

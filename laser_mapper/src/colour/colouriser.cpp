@@ -17,18 +17,18 @@ using urban_nav_registration::Picture;
 namespace {
 
 constexpr std::size_t kMaxSamples = 40000;
-constexpr int kBestViews = 9;     // of a point, for its median
+constexpr int kBestViews = 9;     // views per point, for its median
 constexpr int kLargestPatch = 3;  // px to either side
 constexpr float kSaturated = 250.0F, kDark = 4.0F;
 constexpr std::size_t kPointGrain = 512;
 
-/// What a view shows of a point.
+/// Colour of a point in a view.
 struct PointView {
   float weight = 0.0F;
   std::array<float, 3> colour{};
 };
 
-/// The views of a point that show it best, and their number.
+/// Best views of a point, and their number.
 struct BestViews {
   std::array<PointView, kBestViews> views;
   int count = 0;
@@ -61,7 +61,7 @@ struct BestViews {
   }
 };
 
-/// Mean of a patch as wide as a point of the map is in the image.
+/// Returns the mean of a patch with the size of a map point in the image.
 std::array<float, 3> patchColour(const Picture& picture, const ImagePoint& at, double edge, double focal) {
   const int half = std::clamp(static_cast<int>(std::lround(0.5 * (edge * focal / at.depth - 1.0))), 0, kLargestPatch);
   const int u0 = static_cast<int>(std::lround(at.u)), v0 = static_cast<int>(std::lround(at.v));
@@ -83,7 +83,7 @@ bool isUsable(const std::array<float, 3>& colour) {
   return std::all_of(colour.begin(), colour.end(), [](float value) { return value > kDark && value < kSaturated; });
 }
 
-/// Near views that look at the surface squarely, and not through the edge of the lens, show it best.
+/// Prefers near views with small incidence angle, away from the edge of the lens.
 float viewWeight(const MapPoint& point, const ImagePoint& at, const ViewProjection& projection) {
   const Vector3d to_view = (projection.centre() - point.p.cast<double>()) / at.depth;
   const double cosine = point.normal.squaredNorm() > 0.5F ? std::abs(point.normal.cast<double>().dot(to_view)) : 0.5;

@@ -9,7 +9,7 @@ namespace laser_mapper {
 namespace {
 
 constexpr int kGainRounds = 12;
-constexpr std::size_t kLeastShared = 8;  // points by which an image is compared with others
+constexpr std::size_t kLeastShared = 8;  // points shared with other images
 
 float medianInPlace(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -17,7 +17,7 @@ float medianInPlace(std::vector<float>& values) {
   return *middle;
 }
 
-/// One channel: logarithms of the gains.
+/// Estimates one channel: logarithms of the gains.
 std::vector<float> channelGains(std::size_t views, std::size_t points, std::size_t channel,
                                 const std::vector<ColourObservation>& observations) {
   std::vector<float> gains(views, 0.0F);

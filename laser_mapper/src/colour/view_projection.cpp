@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNearest = 0.3;  // m
 
-/// Tangent of the widest angle that an image shows along one axis, with 5 % to spare.
+/// Returns the tangent of half the field of view along one axis, with a margin of 5 %.
 double widestTangent(const urban_nav_core::RawCamera& camera, bool horizontal) {
   const urban_nav_core::Pinhole& pinhole = camera.pinhole;
   double widest = 0.0;

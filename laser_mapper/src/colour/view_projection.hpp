@@ -9,10 +9,10 @@
 
 namespace laser_mapper {
 
-/// Farthest point that a view colours, m.
+/// Largest distance at which a view colours a point, m.
 constexpr double kColourDistance = 20.0;
 
-/// Projects points into a view: a quick test for those outside, then the lens.
+/// Projects points into a view, with a quick rejection before the lens model.
 class ViewProjection {
  public:
   explicit ViewProjection(const ColourView& view);
@@ -20,7 +20,7 @@ class ViewProjection {
   std::optional<urban_nav_registration::ImagePoint> project(const Eigen::Vector3f& p) const;
   /// Returns a point of the map and its normal, in the camera's frame.
   urban_nav_registration::ViewedPoint toCamera(const MapPoint& point) const;
-  /// Returns whether a box of the map may hold such points.
+  /// Returns whether a box of the map may contain visible points.
   bool mayObserve(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const;
   const Eigen::Vector3d& centre() const { return centre_; }
   double focal() const { return view_.camera.pinhole.fx; }
@@ -30,7 +30,7 @@ class ViewProjection {
   const ColourView& view_;
   Eigen::Matrix3d R_;
   Eigen::Vector3d t_, centre_;
-  double tangent_x_ = 0.0, tangent_y_ = 0.0;  ///< of half the fields of view, with room for the lens
+  double tangent_x_ = 0.0, tangent_y_ = 0.0;  ///< of half the fields of view, with a margin for distortion
 };
 
 }  // namespace laser_mapper

@@ -19,10 +19,10 @@ using urban_nav_core::LocalTangent;
 namespace {
 
 constexpr std::size_t kFewestFixes = 10;
-constexpr double kMostHeadingSigma = 10.0 * M_PI / 180.0;  // positions then err no more than the fixes do
+constexpr double kMostHeadingSigma = 10.0 * M_PI / 180.0;  // then positions are no more accurate than the fixes
 constexpr double kCorrelationTime = 180.0;                 // s: errors of ephemeris and ionosphere change over minutes
-constexpr double kCauchyWidth = 2.4;                       // standard deviations: 95 % efficient on normal errors
-constexpr double kNarrower = 0.7;                          // per round, from the width that keeps all fixes
+constexpr double kCauchyWidth = 2.4;                       // standard deviations: 95 % efficiency for normal errors
+constexpr double kNarrower = 0.7;                          // per iteration, from the width that keeps all fixes
 constexpr int kMostRounds = 60;
 constexpr std::size_t kMostInSums = 500;  // fixes
 
@@ -49,7 +49,7 @@ std::string roundedText(double value, double step) {
   return urban_nav_core::printNumber(std::round(value / step) / std::round(1.0 / step));
 }
 
-/// Fits with all fixes, then with an ever narrower kernel.
+/// Fits with all fixes, then with decreasing kernel width.
 LevelMotion fitRobustly(const std::vector<AntennaFix>& fixes, const std::vector<Vector3d>& local,
                         std::vector<double>& weights) {
   std::vector<Vector3d> places;
@@ -69,20 +69,20 @@ LevelMotion fitRobustly(const std::vector<AntennaFix>& fixes, const std::vector<
   return fit;
 }
 
-/// Takes the heights' median: they do not depend on the heading.
+/// Uses the median of the heights, which do not depend on the heading.
 void fitHeight(const std::vector<AntennaFix>& fixes, const std::vector<Vector3d>& local, LevelMotion& fit) {
   std::vector<double> differences;
   for (std::size_t i = 0; i < fixes.size(); ++i) differences.push_back(local[i].z() - fixes[i].p_map.z());
   fit.shift.z() = middleValue(differences);
 }
 
-/// A fix in the sums over pairs.
+/// Fix in the sums over pairs.
 struct WeightedLever {
   double seconds = 0.0, weight = 0.0;
-  Vector2d lever = Vector2d::Zero();  ///< m, from the middle of the fixes
+  Vector2d lever = Vector2d::Zero();  ///< m, from the centre of the fixes
 };
 
-/// Returns at most kMostInSums of the fixes, evenly chosen, with weights that sum to 1.
+/// Returns at most kMostInSums of the fixes, evenly subsampled, with weights that sum to 1.
 std::vector<WeightedLever> weightedLevers(const std::vector<AntennaFix>& fixes, const std::vector<double>& weights) {
   std::vector<WeightedLever> levers;
   double all = 0.0;
@@ -101,10 +101,10 @@ std::vector<WeightedLever> weightedLevers(const std::vector<AntennaFix>& fixes, 
   return levers;
 }
 
-/// Carries the covariance of errors that last for kCorrelationTime, as large as the receiver states, through the fit.
+/// Propagates the covariance of errors with the receiver's sigmas, correlated over kCorrelationTime, through the fit.
 void stateUncertainty(const std::vector<AntennaFix>& fixes, const std::vector<double>& weights, GeoReference& made) {
   const std::vector<WeightedLever> levers = weightedLevers(fixes, weights);
-  double spread = 0.0, position = 0.0, turn = 0.0;  // m^2; shares of the variance of one fix; m^2
+  double spread = 0.0, position = 0.0, turn = 0.0;  // m^2; relative variance of position for one fix; m^2
   for (const WeightedLever& a : levers) {
     spread += a.weight * a.lever.squaredNorm();
     for (const WeightedLever& b : levers) {

@@ -60,7 +60,7 @@ MapProjection::MapProjection(int epsg, const std::string& option) : proj_(std::m
   const std::string code = "EPSG:" + std::to_string(epsg);
   const ProjObject crs(proj_create(context, code.c_str()));
   if (!crs || proj_get_type(crs.get()) != PJ_TYPE_PROJECTED_CRS || !isInMetres(context, crs.get()))
-    throw UserError(option, code + " is no projected coordinate system in metres that PROJ knows",
+    throw UserError(option, code + " is not a projected coordinate system in metres known to PROJ",
                     "auto, or the code of such a system: EPSG:32630");
   const char* text = proj_as_wkt(context, crs.get(), PJ_WKT1_GDAL, nullptr);
   const ProjObject raw(proj_create_crs_to_crs(context, "EPSG:4979", code.c_str(), nullptr));

@@ -14,10 +14,10 @@ using urban_nav_core::Scan;
 
 namespace {
 
-constexpr double kNearBeam = 0.1;  // m: beams that pass nearer to the point are asked
-constexpr float kBehind = 0.3F;    // m: farther than errors of poses between passes, and a beam's own width
+constexpr double kNearBeam = 0.1;  // m: distance of beams to a point that are evaluated
+constexpr float kBehind = 0.3F;    // m: more than errors of poses between passes and the beam width
 constexpr float kLeastLookRange = 0.5F, kMostLookRange = 20.0F;  // m
-constexpr float kBeamSpacing = 0.014F;                           // rad: neighbours of 0.5 deg, with room
+constexpr float kBeamSpacing = 0.014F;                           // rad: beams 0.5 deg apart, with a margin
 constexpr int kFewestBeams = 4;
 constexpr std::size_t kSweepStep = 4, kStretch = 24;
 
@@ -86,7 +86,7 @@ void ChunkBeams::lookIn(const Sweep& sweep, const Vector3d& p, Found& found) con
   const auto low = std::lower_bound(begin, end, angle - half);
   const auto at = std::lower_bound(low, end, angle);
   const auto high = std::upper_bound(at, end, angle + half);
-  // Nothing is known of the sides of the point where beams have no echo.
+  // Unknown if beams on either side of the point have no echo.
   if (at == low || at == high || angle - *(at - 1) > kBeamSpacing || *at - angle > kBeamSpacing) return;
   for (auto beam = low; beam != high; ++beam) {
     const float excess = ranges_[static_cast<std::size_t>(beam - angles_.begin())] - range;

@@ -25,11 +25,11 @@ namespace {
 
 constexpr const char* kGhostState = "laser_mapper_ghosts";
 constexpr double kLongestSight = 20.0;     // m, from the path
-constexpr std::size_t kCachedChunks = 96;  // some 1 MB each
+constexpr std::size_t kCachedChunks = 96;  // about 1 MB each
 constexpr StampNs kPathStep = 250'000'000;
 constexpr std::size_t kCandidatesPerTask = 256, kChunksPerRound = 16, kTilesAtOnce = 8;
 
-/// First and last time at which a cube and those beside it had a beam.
+/// First and last time of beams in a voxel and its neighbours.
 struct SeenTimes {
   StampNs first = std::numeric_limits<StampNs>::max(), last = std::numeric_limits<StampNs>::min();
   void add(StampNs stamp) {
@@ -66,7 +66,7 @@ void GhostFinder::listChunks() {
           low = low.cwiseMin(pose->t());
           high = high.cwiseMax(pose->t());
         }
-      if (!(low.x() <= high.x())) continue;  // no pose, hence no cells
+      if (!(low.x() <= high.x())) continue;  // without poses there are no cells
       const double edge = kTileCells * parameters_.voxel;
       const auto tile = [&](double value) { return static_cast<int>(std::floor(value / edge)); };
       chunk.reach_low = {tile(low.x() - kLongestSight), tile(low.y() - kLongestSight)};
@@ -86,7 +86,7 @@ void GhostFinder::markChanged() {
     chunk.changed = seen.erase(chunkName(sessions_[chunk.session].id, chunk.begin, chunk.revision)) == 0;
     unchanged += chunk.changed ? 0 : 1;
   }
-  std::set<std::string> now;  // a chunk that is gone has left no list of its tiles
+  std::set<std::string> now;  // a removed chunk has no list of tiles any more
   for (const Chunk& chunk : chunks_) now.insert(chunkName(sessions_[chunk.session].id, chunk.begin, 0));
   for (const std::string& gone : seen)
     if (now.count(gone.substr(0, gone.rfind(' ')) + " 0") == 0)
@@ -146,7 +146,7 @@ std::vector<GhostFinder::Candidate> GhostFinder::findCandidates(const std::vecto
         around.add(times[number].first);
         around.add(times[number].last);
       }
-      if (around.last - around.first >= gap) continue;  // there at both times
+      if (around.last - around.first >= gap) continue;  // occupied at both times
       const Vector3d corner(cell.cell.x, cell.cell.y, cell.cell.z);
       candidates.push_back({r, i, parameters_.voxel * (corner + cell.offset.cast<double>()), 0, 0});
     }

@@ -15,15 +15,15 @@
 
 namespace laser_mapper {
 
-/// Flags the cells of a map that beams of other times passed through: what moved has left such points (Pomerleau et al.
-/// 2014). Works on the tiles that chunks concern which were rendered since the last time, and remembers in the store
-/// which it has seen. Not thread-safe.
+/// Flags the cells of a map that beams of other times passed through, left by moving objects (Pomerleau et al. 2014).
+/// Processes the tiles affected by chunks rendered since the last call, and stores which chunks were processed. Not
+/// thread-safe.
 class GhostFinder {
  public:
-  /// All must outlive it.
+  /// The arguments must outlive this object.
   GhostFinder(const Parameters& parameters, urban_nav_store::Store& store, const std::vector<MappedSession>& sessions);
 
-  /// Brings the flags in the store up to date; the caller commits. Throws DataError if the store is damaged.
+  /// Updates the flags in the store; the caller commits. Throws DataError if the store is damaged.
   void update();
 
  private:
@@ -31,8 +31,8 @@ class GhostFinder {
     std::size_t session = 0;
     urban_nav_core::StampNs begin = 0;
     std::int64_t revision = 0;
-    std::vector<Tile> tiles;     ///< that it has cells in
-    Tile reach_low, reach_high;  ///< that its beams may have passed through
+    std::vector<Tile> tiles;     ///< tiles with its cells
+    Tile reach_low, reach_high;  ///< tiles that its beams may have crossed
     bool changed = true;
   };
   /// Cells of one chunk in a tile.
@@ -42,16 +42,16 @@ class GhostFinder {
     std::vector<MapCell> cells;
     bool changed = false;
   };
-  /// A cell that only one time has seen.
+  /// Cell observed at one time only.
   struct Candidate {
     std::size_t row = 0, cell = 0;
     Eigen::Vector3d p = Eigen::Vector3d::Zero();
-    int through = 0, hits = 0;  ///< chunks
+    int through = 0, hits = 0;  ///< numbers of chunks
   };
-  /// A tile whose flags may have to change.
+  /// Tile whose flags may change.
   struct TileTask {
     Tile tile;
-    std::vector<std::size_t> holders, reaching;  ///< chunks: with cells in it, and with beams that may pass through it
+    std::vector<std::size_t> holders, reaching;  ///< chunks with cells in it, and chunks with beams that may cross it
     std::vector<Row> rows;
     std::vector<Candidate> candidates;
   };
@@ -66,7 +66,7 @@ class GhostFinder {
   void lookAtCandidates(TileTask& task);
   /// Sets the flags, and packs the rows whose flags have changed.
   static void flagGhosts(TileTask& task);
-  /// Counts for each candidate what the beams of the chunks say of it.
+  /// Counts, for each candidate, the chunks whose beams pass through or hit it.
   void lookAtAll(const std::vector<Row>& rows, const std::vector<std::size_t>& chunks,
                  std::vector<Candidate>& candidates);
   std::vector<std::shared_ptr<const ChunkBeams>> shareBeams(const std::vector<std::size_t>& chunks);
@@ -76,7 +76,7 @@ class GhostFinder {
   urban_nav_store::Store& store_;
   const std::vector<MappedSession>& sessions_;
   std::vector<Chunk> chunks_;
-  std::list<std::size_t> recent_;  ///< chunks in cache_, the latest first
+  std::list<std::size_t> recent_;  ///< chunks in cache_, most recently used first
   std::map<std::size_t, std::shared_ptr<const ChunkBeams>> cache_;
 };
 

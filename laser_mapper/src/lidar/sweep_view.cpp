@@ -12,10 +12,10 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr int kAzimuths = 720;                 // bins of half a degree
-constexpr float kBeyondPoint = 0.3F;           // m: farther than errors of poses, and a beam's own width
-constexpr double kMostElevationSpread = 0.01;  // rad, standard deviation of the elevations of a ring
-constexpr float kMostRingAngle = 0.06F;        // rad, between neighbouring rings: wider gaps are unknown
+constexpr int kAzimuths = 720;                                 // bins of 0.5 deg
+constexpr float kBeyondPoint = 0.3F;                           // m: more than errors of poses and the beam width
+constexpr double kMostElevationSpread = 0.01;                  // rad, standard deviation of the elevations of a ring
+constexpr float kMostRingAngle = 0.06F;                        // rad, between adjacent rings: wider gaps are unknown
 constexpr float kNearestRange = 1.0F, kFarthestRange = 30.0F;  // m
 
 std::size_t azimuthBin(double x, double y) {

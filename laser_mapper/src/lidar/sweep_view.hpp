@@ -11,19 +11,18 @@
 
 namespace laser_mapper {
 
-/// The shortest ranges of a sweep of a 3D LiDAR by ring and azimuth, and where the sensor was when it measured them:
-/// whether beams passed through a point. Of rings that are not cones about the sensor's z axis it knows nothing.
-/// Immutable, so thread-safe.
+/// Shortest ranges of a 3D LiDAR sweep by ring and azimuth with the sensor's poses, for tests whether beams passed
+/// through a point. Rings that are not cones about the sensor's z axis are ignored. Immutable, hence thread-safe.
 class SweepView {
  public:
-  /// `rings`: beams of each ring. `T_frame_map`: of the frame that classify() takes points in. Parts of the sweep at
-  /// times without a pose are left out.
+  /// `rings`: beams of each ring. `T_frame_map`: to the frame of classify(). Parts of the sweep at times without a pose
+  /// are ignored.
   SweepView(const std::vector<urban_nav_core::Scan>& rings, const urban_nav_core::Trajectory& T_map_base,
             const urban_nav_core::Pose& T_base_lidar, const urban_nav_core::Pose& T_frame_map,
             urban_nav_core::StampNs max_gap);
 
-  /// Returns Through if the beams around the point's direction, of the ring above and of the one below, all ended at
-  /// least 0.3 m farther away; Hit if one ended within 0.3 m of its distance; None otherwise.
+  /// Returns Through if the beams around the point's direction, in the rings above and below, all ended at least 0.3 m
+  /// farther away; Hit if one ended within 0.3 m of its distance; None otherwise.
   Sight classify(const Eigen::Vector3d& p_frame) const;
 
  private:
@@ -35,7 +34,7 @@ class SweepView {
   void addRing(const urban_nav_core::Scan& beams);
 
   std::vector<Ring> rings_;  ///< ascending by elevation
-  /// Pose of the frame in that of the sensor when it measured each sector of azimuths.
+  /// Pose of the frame relative to the sensor during each azimuth sector.
   std::array<std::optional<urban_nav_core::Pose>, kSectors> T_lidar_frame_;
   std::optional<urban_nav_core::Pose> T_lidar_frame_middle_;
 };

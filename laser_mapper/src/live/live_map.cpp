@@ -70,7 +70,7 @@ LiveMap::~LiveMap() {
   store_.reset();
   try {
     urban_nav_store::removeStore(path_);
-  } catch (const urban_nav_core::Error&) {  // a temporary file that stays does no harm
+  } catch (const urban_nav_core::Error&) {  // a remaining temporary file is harmless
   }
 }
 
@@ -86,7 +86,7 @@ void LiveMap::open() {
 void LiveMap::clear() {
   open();
   T_odom_base_.clear();
-  // The graph may have sent poses of the session that begins.
+  // The graph may already have sent poses of the new session.
   T_map_base_.erase(announced_);
   T_map_base_.erase("");
   if (!announced_.empty()) ended_.insert(announced_);
@@ -161,7 +161,7 @@ void LiveMap::addClosure(const urban_nav_core::MetricClosure& closure) {
     by_icp_.push_back({0, 0, closure.a.stamp, closure.b.stamp, closure.measured});
 }
 
-/// Closures with other sessions, whose times lie outside of this one, share no beams.
+/// Closures with other sessions, whose times are outside this one, share no beams.
 std::vector<CloudClosure> LiveMap::cloudClosures(const Trajectory& trajectory) const {
   std::vector<CloudClosure> closures;
   for (const CloudClosure& each : by_icp_)
@@ -173,7 +173,7 @@ std::vector<CloudClosure> LiveMap::cloudClosures(const Trajectory& trajectory) c
 
 StampNs LiveMap::newest() const { return T_odom_base_.empty() ? 0 : T_odom_base_.rbegin()->first; }
 
-/// Poses of odometry, each moved by what the graph says of the last of them that it knows.
+/// Returns the poses of odometry, each corrected by the graph's latest pose before it.
 Trajectory LiveMap::trajectory() const {
   Trajectory made;
   Pose T_map_odom;

@@ -28,26 +28,25 @@
 
 namespace laser_mapper {
 
-/// The map of a session that is still going on: LaserMap over a temporary session store. Between the poses of the graph
-/// the robot moves as odometry says; without a graph the map is in the frame of odometry. When poses of the graph move,
-/// the chunks along them are rendered again. Odometry whose stamps jump back begins a new session, with an empty map
-/// (urban_nav_live::RoundGate). Not thread-safe. Throws UserError or DataError if the store cannot be
-/// written.
+/// Map of a running session: LaserMap over a temporary session store. Between the poses of the graph the robot moves by
+/// odometry; without a graph the map is in the frame of odometry. When poses of the graph move, the chunks along them
+/// are rendered again. Odometry whose stamps jump back begins a new session, with an empty map
+/// (urban_nav_live::RoundGate). Not thread-safe. Throws UserError or DataError if the store cannot be written.
 class LiveMap {
  public:
-  /// Figures for the operator.
+  /// Statistics for the operator.
   struct Counts {
     std::size_t scans = 0;
-    std::size_t scans_unplaced = 0;               ///< of lasers whose pose on the robot is unknown
+    std::size_t scans_unplaced = 0;               ///< from lasers with unknown mounting
     std::size_t poses = 0;                        ///< of odometry
-    std::size_t points = 0;                       ///< of the last map
-    std::size_t chunks = 0, chunks_rendered = 0;  ///< all; by the last render()
+    std::size_t points = 0;                       ///< in the last map
+    std::size_t chunks = 0, chunks_rendered = 0;  ///< all; in the last render()
     std::size_t updates_missed = 0;               ///< revisions of the graph that did not arrive
-    std::size_t constraints = 0;                  ///< from planes, taken
-    std::size_t constraints_shared = 0;           ///< discounted: an ICP closure rests on some of their beams
+    std::size_t constraints = 0;                  ///< from planes, published
+    std::size_t constraints_shared = 0;           ///< discounted, since an ICP closure uses some of their beams
   };
 
-  /// `cloud_half_length`: of the clouds that ICP closures rest on, m of path to both sides of their stamps.
+  /// `cloud_half_length`: of the clouds of ICP closures, m of path to either side of their stamps.
   LiveMap(const Parameters& parameters, std::string store_path, double cloud_half_length);
   ~LiveMap();
   LiveMap(const LiveMap&) = delete;
@@ -58,13 +57,13 @@ class LiveMap {
   void addScan(const std::string& laser, const urban_nav_core::Scan& scan);
   void addOdometry(const urban_nav_core::StampedPose& T_odom_base);
   void addGraph(const urban_nav_core::GraphUpdate& update);
-  /// A step of odometry between two poses of the graph: constraints are between such poses. It names the session, whose
-  /// poses and closures alone are used then.
+  /// Adds a step of odometry between two poses of the graph, which constraints connect. It names the session, to which
+  /// poses and closures are then restricted.
   void addStep(const urban_nav_core::SessionStep& step);
-  /// A closure of the running session; ignored unless it was accepted and measured by ICP.
+  /// Adds a closure of the running session; ignored unless it is accepted and measured by ICP.
   void addClosure(const urban_nav_core::MetricClosure& closure);
 
-  /// A part of the map that render() has changed.
+  /// Part of the map changed by render().
   struct ChangedTile {
     Tile tile;
     std::int64_t revision = 0;  ///< counted from 1
@@ -73,21 +72,21 @@ class LiveMap {
 
   /// Returns the points of the whole map.
   std::vector<MapPoint> render();
-  /// Returns tiles that have changed since they were last taken, in the order of Tile, until they have `most` points or
-  /// more; none if nothing has changed.
+  /// Returns tiles that have changed since they were last taken, in the order of Tile, until they have at least `most`
+  /// points; none if nothing has changed.
   std::vector<ChangedTile> takeChanged(std::size_t most);
-  /// Makes takeChanged() return all tiles once more.
+  /// Makes takeChanged() return all tiles again.
   void repeatAll();
-  /// Returns how well the passes of the last map agree.
+  /// Returns the consistency of the passes of the last map.
   MapQuality measureQuality();
-  /// Brings the chunks up to date and returns what planes that two passes measured tell of the poses of the graph
-  /// (plane_constraints.hpp), each pair of stretches once: when the robot has driven on so far that no more beams of
-  /// them come, nor an ICP closure from these beams. Poses are those of the running session.
+  /// Updates the chunks and returns constraints between poses of the graph from planes measured in two passes
+  /// (plane_constraints.hpp), each pair of intervals once: when the robot is so far away that neither further beams nor
+  /// ICP closures from these beams will follow. Poses are those of the running session.
   std::vector<urban_nav_core::RelativeConstraint> takeConstraints();
   /// Renders the map and writes it as map.ply. Returns the number of points. Throws UserError or DataError naming the
   /// path.
   std::size_t save(const std::string& path);
-  /// Forgets scans and poses.
+  /// Removes all scans and poses.
   void clear();
 
   const Counts& counts() const { return counts_; }
@@ -99,7 +98,7 @@ class LiveMap {
   void sortByRound();
   int streamNumber(const std::string& laser);
   void take(const urban_nav_core::SessionStep& step);
-  /// Returns whether a pose is of this session, as far as odometry has announced it.
+  /// Returns whether a pose belongs to this session, as far as odometry has announced it.
   bool isOwn(const std::string& session) const {
     return session.empty() || announced_.empty() || session == announced_;
   }
@@ -109,7 +108,7 @@ class LiveMap {
   void update(LaserMap& map);
   std::vector<CloudClosure> cloudClosures(const urban_nav_core::Trajectory& trajectory) const;
   urban_nav_core::Trajectory trajectory() const;
-  /// What was sent of a tile, and what it is now.
+  /// Published and current state of a tile.
   struct TileState {
     std::int64_t revision = 0;
     std::size_t digest = 0;
@@ -124,18 +123,18 @@ class LiveMap {
   std::unique_ptr<urban_nav_store::Store> store_;
   std::map<std::string, urban_nav_core::Pose> placed_;
   std::map<urban_nav_core::StampNs, urban_nav_core::Pose> T_odom_base_;
-  std::string announced_;        ///< id of the session; empty: odometry has not announced it
-  std::set<std::string> ended_;  ///< sessions before, that odometry has announced
-  /// Keyed by session: rounds of a recording have the same stamps. Under "": those of all sessions that have not ended.
+  std::string announced_;        ///< id of the session; empty: not announced by odometry
+  std::set<std::string> ended_;  ///< earlier sessions announced by odometry
+  /// By session, because replays of a recording have equal stamps. Under "": poses of all sessions that have not ended.
   std::map<std::string, std::map<urban_nav_core::StampNs, urban_nav_core::Pose>> T_map_base_;
   std::set<urban_nav_core::StampNs> nodes_;
   OdometryDrift drift_;
   std::vector<CloudClosure> by_icp_;                         ///< accepted
-  std::set<std::pair<std::int64_t, std::int64_t>> decided_;  ///< pairs of stretches that constraints were taken of
+  std::set<std::pair<std::int64_t, std::int64_t>> decided_;  ///< pairs of intervals with published constraints
   std::optional<std::int64_t> revision_;
   std::map<Tile, TileState> tiles_;
   Counts counts_;
-  std::map<std::string, int> streams_;  ///< laser streams
+  std::map<std::string, int> streams_;  ///< indices of laser streams
   std::unique_ptr<urban_nav_live::RoundGate<Add>> rounds_;
 };
 

@@ -9,7 +9,7 @@ using urban_nav_core::Table;
 
 NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
 
-// clang-format would give each of the columns a line.
+// clang-format would put each column on its own line.
 // clang-format off
 const Table<NodeletParameters>& nodeletTable() {
   using P = NodeletParameters;
@@ -21,15 +21,15 @@ const Table<NodeletParameters>& nodeletTable() {
           {"map_frame", &P::map_frame, "", "map", false, false, {},
            "Frame of the cloud; `odom` without a pose graph.", "REP-105"},
           {"period", &P::period, "s", 2.0, 0.1, 3600.0, {},
-           "Least time between two clouds; making them takes at most a quarter of all time.", "docs/architecture.md"},
+           "Minimum time between two clouds; rendering takes at most a quarter of the time.", "docs/architecture.md"},
           {"tile_bandwidth", &P::tile_bandwidth, "MB/s", 2.0, 0.01, 10000.0, {},
-           "Mean data rate of map/tiles: what has changed beyond it waits.", "docs/architecture.md"},
+           "Mean data rate of map/tiles; further changes wait.", "docs/architecture.md"},
           {"live_constraints", &P::live_constraints, "", false, false, false, {},
-           "Planes that two passes measured are published on map/constraints, for the pose graph; finding them takes "
-           "at most a quarter of all time.",
+           "Publish planes measured by two passes on map/constraints, for the pose graph; the search takes at most a "
+           "quarter of the time.",
            "docs/methods/laser_mapper.md"},
           {"queue_size", &P::queue_size, "messages", 4000, 2, 1000000, {},
-           "Inputs that may wait; beyond that the oldest is dropped and counted.", "docs/architecture.md"},
+           "Largest number of waiting inputs; beyond it the oldest is dropped and counted.", "docs/architecture.md"},
       });
   return rows;
 }

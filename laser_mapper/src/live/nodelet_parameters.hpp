@@ -7,7 +7,7 @@
 
 namespace laser_mapper {
 
-/// Parameters of the nodelet alone, one member per row of nodeletTable().
+/// Parameters of the nodelet, one member per row of nodeletTable().
 struct NodeletParameters {
   std::string base_frame, map_frame;
   double period;          // s

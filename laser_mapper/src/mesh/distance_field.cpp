@@ -12,8 +12,8 @@ using urban_nav_registration::CellTable;
 
 namespace {
 
-constexpr int kPointReach = 2;        // edges around a point whose nodes it describes
-constexpr float kLeastWeight = 0.2F;  // of a point that lies on the node
+constexpr int kPointReach = 2;        // edges around a point whose nodes it affects
+constexpr float kLeastWeight = 0.2F;  // weight of a point on the node is 1
 
 Vector3d positionOf(const DistanceField::Node& node, double edge) { return edge * Vector3d(node.x, node.y, node.z); }
 

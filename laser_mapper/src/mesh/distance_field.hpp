@@ -12,8 +12,8 @@
 
 namespace laser_mapper {
 
-/// Signed distances to the surface that points describe, at the nodes of a sparse grid around them; positive on the
-/// side of the lasers. Not thread-safe while it grows.
+/// Signed distances to the surface of points at the nodes of a sparse grid around them; positive on the side of the
+/// lasers. Not thread-safe while points are added.
 class DistanceField {
  public:
   using Node = urban_nav_registration::Cell;
@@ -23,17 +23,17 @@ class DistanceField {
 
   void add(const MapPoint& point);
 
-  /// A node that enough points lie around.
+  /// Node with enough points around it.
   struct Value {
     Node node;
     float distance = 0.0F;  ///< m
     Eigen::Vector3f colour = Eigen::Vector3f::Zero();
   };
-  /// Returns the known nodes, in the order in which points came to them.
+  /// Returns the known nodes, in order of first occurrence.
   std::vector<Value> values() const;
   std::optional<Value> at(const Node& node) const;
-  /// Returns the vertex of the cell whose lowest corner is `node`: the mean of the points where its edges meet the
-  /// surface; nullopt if a corner is unknown or the surface does not pass through.
+  /// Returns the vertex of the cell whose lowest corner is `node`: the mean of the intersections of its edges with the
+  /// surface; nullopt if a corner is unknown or the surface does not intersect the cell.
   std::optional<TriangleMesh::Vertex> vertexAt(const Node& node) const;
 
  private:

@@ -15,11 +15,11 @@ namespace {
 
 using Key = std::array<int, 3>;
 
-constexpr int kCubesPerEdge = 2;  // cubes of the map along an edge of the grid
+constexpr int kCubesPerEdge = 2;  // voxels of the map along an edge of the grid
 constexpr int kTileNodes = kTileCells / kCubesPerEdge;
-constexpr int kMargin = 4;  // edges around a tile whose points count
+constexpr int kMargin = 4;  // edges around a tile whose points are used
 
-/// A piece of surface by the cells that hold its vertices.
+/// Piece of surface, by the cells with its vertices.
 struct TilePiece {
   std::map<Key, TriangleMesh::Vertex> vertices;
   std::vector<std::array<Key, 4>> quads;
@@ -36,7 +36,7 @@ void addIfNear(const std::vector<MapPoint>& points, const Tile& tile, double edg
       field.add(point);
 }
 
-/// Adds the quadrangle across the edge of the grid from a node of the tile along an axis.
+/// Adds the quadrangle across the grid edge from a node of the tile along an axis.
 void addQuad(const DistanceField& field, const DistanceField::Value& from, int axis, TilePiece& piece) {
   Key to{from.node.x, from.node.y, from.node.z};
   ++to[static_cast<std::size_t>(axis)];
@@ -44,7 +44,7 @@ void addQuad(const DistanceField& field, const DistanceField::Value& from, int a
   if (!next || (next->distance < 0.0F) == (from.distance < 0.0F)) return;
   const std::size_t u = (static_cast<std::size_t>(axis) + 1) % 3, v = (u + 1) % 3;
   std::array<Key, 4> cells;
-  const int steps[4][2] = {{-1, -1}, {0, -1}, {0, 0}, {-1, 0}};  // round the axis, counter-clockwise
+  const int steps[4][2] = {{-1, -1}, {0, -1}, {0, 0}, {-1, 0}};  // around the axis, counter-clockwise
   for (std::size_t i = 0; i < 4; ++i) {
     cells[i] = {from.node.x, from.node.y, from.node.z};
     cells[i][u] += steps[i][0];
@@ -54,7 +54,7 @@ void addQuad(const DistanceField& field, const DistanceField::Value& from, int a
     if (!vertex) return;
     piece.vertices[cells[i]] = *vertex;
   }
-  if (next->distance < 0.0F) std::swap(cells[1], cells[3]);  // seen from the side where the distance is positive
+  if (next->distance < 0.0F) std::swap(cells[1], cells[3]);  // as seen from the side with positive distance
   piece.quads.push_back(cells);
 }
 

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kLayerReach = 0.15;  // m along the normal: points that far from a place are shown with it
+constexpr double kLayerReach = 0.15;  // m along the normal: points this far from a place are shown with it
 constexpr double kDegrees = 180.0 / M_PI;
 
 std::vector<PlanePlace> findAllPlaces(const LaserMap& map) {

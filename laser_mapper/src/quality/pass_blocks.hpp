@@ -9,13 +9,13 @@
 
 namespace laser_mapper {
 
-/// A cell and where it is.
+/// Cell with its position.
 struct PlacedCell {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();  ///< m, in the map
   const MergedCell* cell = nullptr;
 };
 
-/// Cells of one pass in a tile by blocks of 16 cubes along each axis. The cells must outlive it. Immutable, so
+/// Cells of one pass in a tile by blocks of 16 voxels along each axis. The cells must outlive it. Immutable, hence
 /// thread-safe.
 class PassBlocks {
  public:

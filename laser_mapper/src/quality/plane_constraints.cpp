@@ -24,37 +24,37 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr double kMostSpread = 1.5;  // s, standard deviation of a patch's stamps: it belongs to one pose
+constexpr double kMostSpread = 1.5;  // s, standard deviation of a patch's stamps for a single pose
 constexpr std::size_t kFewestPlanes = 3;
-constexpr double kChi2 = 16.27;         // of 3 degrees of freedom, 99.9 %
+constexpr double kChi2 = 16.27;         // 99.9 % of chi-square with 3 degrees of freedom
 constexpr double kLeastAgreeing = 0.7;  // of the planes of a group
-constexpr double kLength = 10.0;        // m that weigh as much as a rad, where directions are told apart
-// Of the largest eigenvalue: normals of one plane differ by some 0.01 rad through noise and roughness, which must not
-// pass for knowledge along the plane.
+constexpr double kLength = 10.0;        // m that count as one rad when directions are compared
+// Relative to the largest eigenvalue: normals of one plane vary by about 0.01 rad through noise and roughness, which
+// must not be mistaken for information along the plane.
 constexpr double kLeastInformation = 0.0025;
 
-// Patches are round and reach into the blocks beside theirs: so many of them have each beam.
+// Patches are round and overlap the adjacent blocks: mean number of patches per beam.
 constexpr double kOverlap = 3.14159265358979 * kPlaceRadius * kPlaceRadius / (kPlaceSpacing * kPlaceSpacing);
 
 using PlaneJacobian = Eigen::Matrix<double, 3, 6>;
 
-/// One plane in two passes: J x = r + noise, with x = (rho, phi) the correction of pose b in the axes of the map:
-/// points p that b has seen go to Exp(phi) (p - t_b) + t_b + rho.
+/// Plane in two passes: J x = r + noise, with x = (rho, phi) the correction of pose b in the axes of the map: points p
+/// observed from b move to Exp(phi) (p - t_b) + t_b + rho.
 struct PlanePair {
   PlaneJacobian J;
   PlaneAxes axes;
   Vector3d r = Vector3d::Zero();          // displacement along the normal, m; two tilts, rad
-  Vector3d shares = Vector3d::Zero();     // of this pair in the plane's information
+  Vector3d shares = Vector3d::Zero();     // weights of this pair in the plane's information
   Vector3d variances = Vector3d::Zero();  // of r, m^2 and rad^2: noise and constant error of the lasers
 };
 
-/// The pairs of a group, and the inverse covariance of all their r.
+/// Pairs of a group, and the inverse covariance of all their r.
 struct PairGroup {
   std::vector<PlanePair> pairs;
   Eigen::MatrixXd weights;
 };
 
-/// The poses of a session, and what odometry states of their drift; null: none.
+/// Poses of a session, and their drift according to odometry; null: none.
 struct PosesOfPass {
   const Trajectory* T_map_base = nullptr;
   const OdometryDrift* drift = nullptr;
@@ -66,8 +66,8 @@ struct PlaceOfPair {
   const PlanePatch *a = nullptr, *b = nullptr;
 };
 
-/// Variances of a patch along its normal, m^2, and of its tilt, rad^2: noise, and what the surface adds to a range,
-/// which ends up in the displacement and, as far as it varies over the patch, in the tilt.
+/// Returns the variances of a patch along its normal, m^2, and of its tilt, rad^2: noise, and the effect of the surface
+/// on ranges, which is a displacement and, as far as it varies over the patch, a tilt.
 Eigen::Vector2d patchVariances(const PlanePatch& patch, double range_bias) {
   const double extent = patch.displacement_sigma / patch.angle_sigma;
   return kOverlap *
@@ -75,7 +75,7 @@ Eigen::Vector2d patchVariances(const PlanePatch& patch, double range_bias) {
                          patch.angle_sigma * patch.angle_sigma + range_bias * range_bias / (extent * extent));
 }
 
-/// Whether a patch can be said to hang on one pose.
+/// Returns whether a patch can be assigned to one pose.
 bool isUsable(const PlanePatch& patch) {
   return patch.angle_sigma > 0.0 && patch.displacement_sigma > 0.0 && patch.stamp_spread < kMostSpread;
 }
@@ -90,8 +90,8 @@ PlanePair makePair(const PlaceOfPair& of, const Vector3d& t_b, double range_bias
   pair.J << normal.transpose(), arm.cross(normal).transpose(), Eigen::RowVector3d::Zero(), first.transpose(),
       Eigen::RowVector3d::Zero(), second.transpose();
   pair.r << normal.dot(a.centre - b.centre), first.dot(turn), second.dot(turn);
-  // The plane itself is unknown: sum of w_i (x_i - plane)^2, least over the plane, is the sum over all pairs of
-  // w_i w_j (x_i - x_j)^2 / sum of w.
+  // The plane itself is unknown: the minimum over the plane of sum w_i (x_i - plane)^2 is the sum over all pairs of w_i
+  // w_j (x_i - x_j)^2 / sum of w.
   Eigen::Vector2d all = Eigen::Vector2d::Zero();
   for (const PlanePatch& patch : of.place->patches)
     if (isUsable(patch)) all += patchVariances(patch, range_bias).cwiseInverse();
@@ -103,14 +103,14 @@ PlanePair makePair(const PlaceOfPair& of, const Vector3d& t_b, double range_bias
   return pair;
 }
 
-/// Solution of a group: information, and the correction in the directions that it tells.
+/// Solution of a group: information, and the correction in observed directions.
 struct GroupFit {
   Matrix6d information = Matrix6d::Zero();
   Vector6d x = Vector6d::Zero();
 };
 
-/// Solves for the directions that the planes tell by their arrangement: those in which they would tell enough of poses
-/// without drift.
+/// Solves for the directions observed by the arrangement of the planes: those with enough information if poses had no
+/// drift.
 GroupFit fitGroup(const PairGroup& group) {
   Matrix6d arrangement = Matrix6d::Zero();
   const auto rows = static_cast<Eigen::Index>(3 * group.pairs.size());
@@ -126,14 +126,14 @@ GroupFit fitGroup(const PairGroup& group) {
   Vector6d scale;
   scale << 1.0, 1.0, 1.0, 1.0 / kLength, 1.0 / kLength, 1.0 / kLength;
   const auto eigen = urban_nav_core::smallEigen<6>(scale.asDiagonal() * arrangement * scale.asDiagonal());
-  Matrix6d told = Matrix6d::Zero();  // projects onto these directions
+  Matrix6d told = Matrix6d::Zero();  // projector onto these directions
   for (int i = 0; i < 6; ++i)
     if (eigen.values(i) > kLeastInformation * eigen.values(5))
       told += eigen.vectors.col(i) * eigen.vectors.col(i).transpose();
   const Eigen::Matrix<double, Eigen::Dynamic, 6> along = J * scale.asDiagonal() * told,
                                                  weighted = group.weights * along;
   const Matrix6d information = along.transpose() * weighted;
-  const double filling = information.trace();  // of the other directions, where the solution is zero
+  const double filling = information.trace();  // regularises the other directions, where the solution is zero
   GroupFit fit;
   fit.x = scale.cwiseProduct(
       urban_nav_core::SmallCholesky<6>(Matrix6d(information + filling * (Matrix6d::Identity() - told)))
@@ -142,7 +142,7 @@ GroupFit fitGroup(const PairGroup& group) {
   return fit;
 }
 
-/// Removes a pair and what was said of its errors.
+/// Removes a pair and its rows of the covariance.
 void removePair(PairGroup& group, std::size_t number) {
   const Eigen::MatrixXd& all = group.weights;
   const auto at = static_cast<Eigen::Index>(3 * number), rest = all.rows() - 3, after = rest - at;
@@ -159,7 +159,7 @@ void removePair(PairGroup& group, std::size_t number) {
   group.pairs.erase(group.pairs.begin() + static_cast<std::ptrdiff_t>(number));
 }
 
-/// Leaves out pairs that contradict the others, the worst first; nullopt if too few remain.
+/// Removes pairs that contradict the others, the worst first; nullopt if too few remain.
 std::optional<GroupFit> fitAgreeing(PairGroup& group) {
   const double least =
       std::max(static_cast<double>(kFewestPlanes), kLeastAgreeing * static_cast<double>(group.pairs.size()));
@@ -169,8 +169,8 @@ std::optional<GroupFit> fitAgreeing(PairGroup& group) {
     for (std::size_t i = 0; i < group.pairs.size(); ++i)
       residuals.segment<3>(3 * static_cast<Eigen::Index>(i)) = group.pairs[i].r - group.pairs[i].J * fit.x;
     const Eigen::VectorXd weighted = group.weights * residuals;
-    // With the inverse covariance W of all residuals e, the others predict those of a pair up to W_ii^-1 (W e)_i, whose
-    // covariance is W_ii^-1.
+    // With the inverse covariance W of all residuals e, the prediction of a pair from the others differs by W_ii^-1 (W
+    // e)_i, with the covariance W_ii^-1.
     std::size_t worst = 0;
     double worst_chi2 = -1.0;
     for (std::size_t i = 0; i < group.pairs.size(); ++i) {
@@ -189,7 +189,7 @@ std::optional<GroupFit> fitAgreeing(PairGroup& group) {
   return std::nullopt;
 }
 
-/// Passes of which a group is made: sessions, and stretches of time in them.
+/// Passes of a group: sessions, and their intervals of time.
 using GroupKey = std::tuple<std::size_t, StampNs, std::size_t, StampNs>;
 
 StampNs stretchAt(const Trajectory& trajectory, StampNs stamp) {
@@ -203,7 +203,7 @@ StampNs meanStamp(const std::vector<PlaceOfPair>& group, const PlanePatch* Place
   return since + std::llround(sum / static_cast<double>(group.size()));
 }
 
-/// Returns the walk of a trajectory around its pose `reference` while it saw the patches of a group.
+/// Returns the walk of a trajectory around its pose `reference` during the observation of a group's patches.
 StretchWalk walkDuring(const std::vector<PlaceOfPair>& group, const PlanePatch* PlaceOfPair::*patch,
                        const PosesOfPass& pass, StampNs reference) {
   StampNs begin = reference, end = reference;
@@ -215,7 +215,7 @@ StretchWalk walkDuring(const std::vector<PlaceOfPair>& group, const PlanePatch* 
   return StretchWalk(*pass.T_map_base, reference, begin, end, pass.drift);
 }
 
-/// Returns the linear map from the constant errors of the lasers, independent in both passes and with unit standard
+/// Returns the linear map from the constant errors of the lasers, independent in both passes and of unit standard
 /// deviation, to the rows of all pairs. `bias`: standard deviation of such an error, m.
 Eigen::MatrixXd laserColumns(const std::vector<PlaceOfPair>& group, double bias) {
   std::map<std::pair<bool, std::uint8_t>, Eigen::Index> columns;
@@ -232,8 +232,8 @@ Eigen::MatrixXd laserColumns(const std::vector<PlaceOfPair>& group, double bias)
   return by_lasers;
 }
 
-/// Returns the inverse covariance of the rows of all pairs: noise and constant errors of the lasers, and the drift of
-/// both trajectories meanwhile; empty if it is not positive definite.
+/// Returns the inverse covariance of the rows of all pairs: noise, constant errors of the lasers, and the drift of both
+/// trajectories; empty if it is not positive definite.
 Eigen::MatrixXd weighPairs(const std::vector<PlaceOfPair>& group, const std::vector<PlanePair>& pairs,
                            const StretchWalk& walk_a, const StretchWalk& walk_b, double bias) {
   const auto rows = static_cast<Eigen::Index>(3 * pairs.size());
@@ -250,7 +250,7 @@ Eigen::MatrixXd weighPairs(const std::vector<PlaceOfPair>& group, const std::vec
   return urban_nav_core::invertPositiveDefinite(covariance).value_or(Eigen::MatrixXd());
 }
 
-/// `groups`: between the two passes, whose lasers' constant errors all of them share.
+/// `groups`: number of groups between the two passes, which share the constant errors of the lasers.
 std::optional<PlaneConstraint> constrain(const std::vector<PlaceOfPair>& group, const PosesOfPass& pass_a,
                                          const PosesOfPass& pass_b, double range_bias, std::size_t groups) {
   const Trajectory &T_map_a = *pass_a.T_map_base, &T_map_b = *pass_b.T_map_base;
@@ -293,7 +293,7 @@ std::vector<PlaneConstraint> findPlaneConstraints(const std::vector<PlanePlace>&
       groups[{a.session, stretchAt(T_map_a, a.stamp), b.session, stretchAt(T_map_b, b.stamp)}].push_back(
           {&place, &a, &b});
     }
-  std::map<std::pair<std::uint16_t, std::uint16_t>, std::size_t> shared;  // groups, by passes
+  std::map<std::pair<std::uint16_t, std::uint16_t>, std::size_t> shared;  // number of groups, by passes
   const auto passes = [](const std::vector<PlaceOfPair>& group) {
     return std::pair(group.front().a->pass, group.front().b->pass);
   };

@@ -20,18 +20,19 @@ namespace {
 
 constexpr StampNs kLeastApart = 20'000'000'000;  // between passes: nearer ones share the error of their poses
 constexpr std::size_t kFewestCells = 40;
-constexpr float kMostBeams = 4.0F;           // of a cell that count: what is left after them are errors of poses
+constexpr float kMostBeams = 4.0F;           // largest number of beams of a cell that reduces its noise: the rest are
+                                             // errors of poses
 constexpr double kCapture = 0.5;             // m along the normal
 constexpr double kModeBin = 0.02;            // m
-constexpr double kPatchReachAtFirst = 0.06;  // m about the most frequent distance
-constexpr double kPatchReach = 0.03;         // m about the plane that was fitted before
-constexpr double kMostThickness = 0.015;     // m: walls, paving and mown grass, but no hedges
-constexpr double kLeastPatchExtent = 0.25;   // of the radius, standard deviation in the shorter direction
-constexpr double kLeastShare = 0.7;          // of the cells around the centre that lie on the plane
+constexpr double kPatchReachAtFirst = 0.06;  // m about the mode of the distances
+constexpr double kPatchReach = 0.03;         // m about the previously fitted plane
+constexpr double kMostThickness = 0.015;     // m: walls, paving and mown grass, but not hedges
+constexpr double kLeastPatchExtent = 0.25;   // relative to the radius, standard deviation in the shorter direction
+constexpr double kLeastShare = 0.7;          // of the cells around the centre on the plane
 constexpr double kMostTurn = 0.35;           // rad from the normal of the first pass
 constexpr double kSteep = 0.3, kFlat = 0.85;
 
-/// A plane and the side that it was seen from.
+/// Plane and the side from which it was observed.
 struct PatchFit {
   PlanePatch patch;
   double extent = 0.0;  ///< m, standard deviation in the shorter direction
@@ -84,7 +85,7 @@ bool isPatch(const PatchFit& fit, double radius) {
          fit.patch.normal.allFinite();
 }
 
-/// Returns the distance along the normal that most cells have.
+/// Returns the mode of the distances of cells along the normal.
 double mostFrequentDistance(const PlanePatch& about, const std::vector<PlacedCell>& cells) {
   const int bins = 2 * static_cast<int>(kCapture / kModeBin) + 1;
   std::vector<int> counts(static_cast<std::size_t>(bins) + 2, 0);
@@ -110,7 +111,7 @@ std::vector<PlacedCell> cellsNearPlane(const std::vector<PlacedCell>& cells, con
   return near;
 }
 
-/// Returns the plane of a pass around a place that `seed` defines.
+/// Returns the plane of a pass around the place defined by `seed`.
 std::optional<PlanePatch> measurePatch(const PassBlocks& blocks, const PlanePatch& seed, double radius) {
   const std::vector<PlacedCell> around = blocks.around(seed.centre, seed.normal, radius, kCapture);
   if (around.size() < kFewestCells) return std::nullopt;
@@ -174,7 +175,7 @@ std::vector<PlanePlace> findPlanePlaces(double voxel, double range_bias, const s
   all.reserve(passes.size());
   for (const PassCells& pass : passes) all.emplace_back(voxel, pass);
   std::vector<PlanePlace> places;
-  urban_nav_registration::CellTable taken(1 << 10);  // blocks that have a place
+  urban_nav_registration::CellTable taken(1 << 10);  // blocks that already have a place
   for (std::size_t s = 0; s + 1 < all.size(); ++s)
     for (const PassBlocks::Block& block : all[s].blocks()) {
       if (taken.find(block.key) != urban_nav_registration::CellTable::kNone) continue;

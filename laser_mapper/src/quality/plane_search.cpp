@@ -20,11 +20,11 @@ using urban_nav_store::Store;
 
 namespace {
 
-constexpr double kPassReach = 15.0;              // m: passes farther apart have few planes in common
+constexpr double kPassReach = 15.0;              // m: more distant passes have few planes in common
 constexpr StampNs kThinnedSpacing = 30'000'000;  // at walking speed, scans 30 ms apart still fill cubes of 5 cm
 constexpr StampNs kDelayMargin = 1'000'000'000;  // more than the delay of any laser
 
-/// A store that is removed when it is no longer needed.
+/// Temporary store, removed by the destructor.
 class ScratchStore {
  public:
   explicit ScratchStore(const std::string& path) : path_(path) {
@@ -35,7 +35,7 @@ class ScratchStore {
     store_.reset();
     try {
       urban_nav_store::removeStore(path_);
-    } catch (const urban_nav_core::Error&) {  // a temporary file that stays does no harm
+    } catch (const urban_nav_core::Error&) {  // a remaining temporary file is harmless
     }
   }
   ScratchStore(const ScratchStore&) = delete;
@@ -48,7 +48,7 @@ class ScratchStore {
   std::unique_ptr<Store> store_;
 };
 
-/// Copies lasers with their adopted calibration, and thinned scans of the given chunks.
+/// Copies lasers with their adopted calibration, and subsampled scans of the given chunks.
 void copyScans(Store& from, Store& to, const SessionId& session, const std::set<StampNs>& chunks) {
   to.sessions().put(urban_nav_store::Session{session, "", "", "", 0, true});
   urban_nav_registration::writeCalibration(to, session, urban_nav_registration::readCalibration(from, session));

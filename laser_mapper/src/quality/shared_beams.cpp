@@ -17,10 +17,10 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr double kMetresPerRadian = 10.0;  // m that weigh as much as a rad, where directions are told apart
-constexpr double kNoInformation = 1e-12;   // of the largest eigenvalue
+constexpr double kMetresPerRadian = 10.0;  // m that count as one rad when directions are compared
+constexpr double kNoInformation = 1e-12;   // relative to the largest eigenvalue
 
-/// Returns `information` less `known`, in the directions where it is more.
+/// Returns `information` minus `known`, in the directions where the difference is positive.
 Matrix6d remainder(const Matrix6d& information, const Matrix6d& known) {
   Vector6d scale;
   scale << 1.0, 1.0, 1.0, 1.0 / kMetresPerRadian, 1.0 / kMetresPerRadian, 1.0 / kMetresPerRadian;
@@ -31,7 +31,7 @@ Matrix6d remainder(const Matrix6d& information, const Matrix6d& known) {
     root(i) = is_known ? std::sqrt(eigen.values(i)) : 0.0;
     inverse_root(i) = is_known ? 1.0 / root(i) : 0.0;
   }
-  // Where `information` is the identity, it has more in the directions of positive eigenvalues of the difference.
+  // With `information` whitened to the identity, it exceeds `known` in the eigenvectors with positive eigenvalues.
   const Matrix6d whitened = inverse_root.asDiagonal() * eigen.vectors.transpose() * scale.asDiagonal() * known *
                             scale.asDiagonal() * eigen.vectors * inverse_root.asDiagonal();
   const auto left = urban_nav_core::smallEigen<6>(Matrix6d(Matrix6d::Identity() - whitened));
@@ -87,7 +87,7 @@ SharedBeams::Common SharedBeams::common(const std::pair<Interval, Interval>& clo
   return {std::max(straight, reversed), reversed > straight};
 }
 
-/// Returns the information of a closure about the poses of a constraint, if odometry between them were exact.
+/// Returns the information of a closure on the poses of a constraint, assuming exact odometry between them.
 Matrix6d SharedBeams::carry(const CloudClosure& closure, bool is_reversed, const PlaneConstraint& to) const {
   const auto poseOf = [&](std::size_t session, StampNs stamp) {
     const Trajectory& trajectory = *T_map_base_[session];

@@ -15,7 +15,7 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr double kWalkStep = 0.25;       // s: at walking speed, a patch of 1.2 m takes four of them
+constexpr double kWalkStep = 0.25;       // s: four steps for a patch of 1.2 m at walking speed
 constexpr double kShortestSight = 1e-3;  // s
 constexpr double kLeastSpread = 1e-12;   // m^4, determinant of the scatter of a patch that extends in two directions
 
@@ -25,16 +25,16 @@ Matrix6d factorCovariance(const Matrix6d& covariance) {
   return eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
-/// Share of the times from `first` to `last` that lie after `s` if that is after the reference; less the share that
-/// lie before it otherwise.
+/// Returns the share of the times from `first` to `last` after `s` if `s` is after the reference; otherwise minus the
+/// share before it.
 double shareBeyond(double s, double first, double last) {
   if (s >= 0.0) return std::clamp((last - s) / (last - first), 0.0, 1.0);
   return -std::clamp((s - first) / (last - first), 0.0, 1.0);
 }
 
-/// Slope in time, 1/s, of the line fitted to a unit step at some moment between `begin` and `end`, mean over that
-/// moment; the line is fitted over the times from `first` to `last`. At z (T) from their middle it is 6 (1/4 - z^2) /
-/// T.
+/// Returns the slope in time, 1/s, of the line fitted to a unit step at a time uniformly distributed between `begin`
+/// and `end`; the line is fitted over the times from `first` to `last`. For a step at z (T) from their middle it is 6
+/// (1/4 - z^2) / T.
 double slopeOfStep(double begin, double end, double first, double last) {
   const auto integral = [&](double s) {
     const double z = std::clamp((s - first) / (last - first), 0.0, 1.0) - 0.5;
@@ -43,8 +43,8 @@ double slopeOfStep(double begin, double end, double first, double last) {
   return 6.0 * (integral(end) - integral(begin)) / (end - begin);
 }
 
-/// Returns what turns a slope in time, m/s, into one along the plane: the time gradient of the cells, s/m, along the
-/// two axes.
+/// Returns the factor from a slope in time, m/s, to one along the plane: the gradient of the cells' times, s/m, along
+/// the two axes.
 Eigen::Vector2d timeGradient(const PlanePatch& patch, const PlaneAxes& axes) {
   Eigen::Matrix<double, 3, 2> along;
   along << axes.first, axes.second;
@@ -80,7 +80,7 @@ Eigen::MatrixXd StretchWalk::rows(const PlanePatch& patch, const PlaneAxes& axes
   Eigen::MatrixXd made(3, size());
   const double middle = urban_nav_core::secondsBetween(reference_, patch.stamp);
   const double half = std::max(std::sqrt(3.0) * patch.stamp_spread, kShortestSight);
-  // A gradient g of the displacement along the plane is the turn g x normal.
+  // A gradient g of the displacement along the plane is the rotation g x normal.
   const Eigen::Vector2d gradient = timeGradient(patch, axes);
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const Step& step = steps_[i];

@@ -12,11 +12,11 @@ using Eigen::Vector3f;
 namespace {
 
 constexpr float kAgreementGate = 3.0F;     // standard deviations within which two disparities agree
-constexpr float kMatchingFloor = 0.15F;    // px: errors that neighbouring pixels share, not in their variances
-constexpr float kIndependentViews = 6.0F;  // images of one surface share errors of matching: more do not add
+constexpr float kMatchingFloor = 0.15F;    // px: errors common to adjacent pixels, not in their variances
+constexpr float kIndependentViews = 6.0F;  // limit, because images of one surface share matching errors
 constexpr float kLeastDepth = 0.3F;        // m
 
-/// A depth image as seen from the camera of another one.
+/// Depth image seen from the camera of another one.
 struct OtherView {
   const DepthFrame* frame = nullptr;
   Matrix3f R_other_own;
@@ -30,7 +30,7 @@ struct Comparison {
   float weight = 0.0F;       ///< 1/m^2
 };
 
-/// `ray`: of the point, with depth 1 in its own camera. `own_sigma`: of the point's depth, m.
+/// `ray`: direction of the point, with depth 1 in its own camera. `own_sigma`: of the point's depth, m.
 Comparison compare(const OtherView& other, const Vector3f& ray, float depth, float own_sigma) {
   const DepthFrame& frame = *other.frame;
   const Vector3f along = other.R_other_own * ray;

@@ -8,31 +8,31 @@
 
 namespace laser_mapper {
 
-/// A depth image with its pose. The image must outlive it.
+/// Depth image with its pose. The image must outlive it.
 struct PosedDepth {
   const DepthFrame* frame = nullptr;
-  urban_nav_core::Pose T_frame_camera;  ///< of the frame that points are returned in
+  urban_nav_core::Pose T_frame_camera;  ///< to the frame of returned points
 };
 
-/// A point that several depth images agree on.
+/// Point on which several depth images agree.
 struct FusedPoint {
   Eigen::Vector3f p = Eigen::Vector3f::Zero();  ///< m
   float sigma = 0.0F;                           ///< m, standard deviation along the line of sight
   float grey = 0.0F;                            ///< 0...255
-  int views = 0;                                ///< images that agree, its own included
+  int views = 0;                                ///< images that agree, including its own
 };
 
-/// When depth images agree on a point.
+/// Criteria for points on which depth images agree.
 struct FusionRule {
-  int fewest_views = 3;      ///< images that must see the point, its own included
+  int fewest_views = 3;      ///< images that must observe the point, including its own
   float farthest = 40.0F;    ///< m, depth of a point in its own image
   float sigma_limit = 0.1F;  ///< m, standard deviation of a fused point along the line of sight
 };
 
 /// Returns the points of one depth image that others confirm (Merrell et al. 2007). A sample is moved along its line of
-/// sight to the mean of the depths of all images that agree with it, weighted by their variances. It is left out where
-/// fewer than FusionRule::fewest_views agree, or where half as many images see through it as agree with it. `others`:
-/// may include the image itself, which is skipped. Thread-safe.
+/// sight to the mean depth of all images that agree with it, weighted by inverse variance. It is rejected if fewer than
+/// FusionRule::fewest_views agree, or if at least half as many images see through it as agree. `others`: may include
+/// the image itself, which is skipped. Thread-safe.
 std::vector<FusedPoint> fuseDepth(const PosedDepth& own, const std::vector<PosedDepth>& others, const FusionRule& rule);
 
 }  // namespace laser_mapper

@@ -26,12 +26,12 @@ std::vector<BrightnessRow> drawRows(std::size_t count, urban_nav_core::testing::
       row.at_point(i) = dice.normal();
     }
     row.view_share = {2U * static_cast<std::uint32_t>(&row - rows.data()) % 7U, 0.3};
-    row.point_share = {4U, 0.8};  // of some views the same seconds
+    row.point_share = {4U, 0.8};  // the same seconds as some views
   }
   return rows;
 }
 
-/// The row among all unknowns: terms, corrections, brightness of each point.
+/// Returns the row for all unknowns: terms, corrections, brightness of each point.
 VectorXd denseRow(const BrightnessRow& row, Index point, Index points) {
   VectorXd dense = VectorXd::Zero(static_cast<Index>(kCalibrationTerms + 6 * kBrightnessSeconds) + points);
   dense.head<kCalibrationTerms>() = row.terms;

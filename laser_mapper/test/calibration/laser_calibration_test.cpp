@@ -30,8 +30,8 @@ double smoothStep(double t) {
   return s * s * (3.0 - 2.0 * s);
 }
 
-/// Round the room, 12 m by 5 m, in 20 s, a turn on the spot, and round again the other way, in 44 s; at the pace and
-/// the heading of a robot that is driven by hand.
+/// Around the room, 12 m by 5 m, in 20 s, a turn on the spot, and around it in the opposite direction, in 44 s; with
+/// the speed and heading variations of manual driving.
 Trajectory roundTheRoom() {
   Trajectory trajectory;
   for (int i = 0; i <= 880; ++i) {
@@ -62,7 +62,7 @@ Pose rightLaser() {
   return Pose(R, Vector3d(0.0, -0.25, 0.9));
 }
 
-/// A store of a drive through the room whose calibration is wrong in a known manner.
+/// Store of a drive through the room with a known calibration error.
 class LaserCalibrationTest : public ::testing::Test {
  protected:
   LaserCalibrationTest() {
@@ -76,7 +76,7 @@ class LaserCalibrationTest : public ::testing::Test {
     urban_nav_store::removeStore(path_);
   }
 
-  /// Adds the scans of a laser. Its stamps are late by `delay`, and the extrinsics state its pose as turned by `turn`.
+  /// Adds the scans of a laser. Its stamps are late by `delay`, and its extrinsics are rotated by `turn`.
   void scanWith(const std::string& frame, const Pose& T_base_laser, const Trajectory& trajectory, StampNs delay,
                 const Vector3d& turn) {
     for (Scan scan : testing_room::scansOfRoom(trajectory, T_base_laser, 0.005)) {

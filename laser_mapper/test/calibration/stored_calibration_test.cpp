@@ -26,7 +26,7 @@ CalibrationResult lateLeftLaser(double delay) {
   return found;
 }
 
-/// Late, and turned about a vertical axis 2 m in front of the robot.
+/// Delayed, and rotated about a vertical axis 2 m in front of the robot.
 ViewCalibration latePanorama(double delay) {
   ViewCalibration found;
   found.centre = {2.0, 0.0, 0.0};

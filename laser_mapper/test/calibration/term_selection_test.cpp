@@ -28,7 +28,7 @@ TEST(TermSelection, OnlyWhatDiffersFromZeroIsChosen) {
 }
 
 TEST(TermSelection, TermsThatOnlyTheirSumSaysAnythingAboutAreNotDroppedTogether) {
-  // Delay and shift z are each uncertain, but their sum is known not to be zero.
+  // Delay and shift z are each uncertain, but their sum is significantly non-zero.
   MatrixXd information = MatrixXd::Identity(7, 7) * 1e6;
   information(0, 0) = information(3, 3) = 1e6 + 400.0;
   information(0, 3) = information(3, 0) = 1e6;

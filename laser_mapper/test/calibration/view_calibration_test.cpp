@@ -25,7 +25,7 @@ double paint(double x, double y) {
   return 120.0 + 35.0 * std::sin(9.0 * x + 2.0 * y) + 30.0 * std::sin(7.0 * y - 4.0 * x) + 20.0 * std::sin(17.0 * x);
 }
 
-/// A camera that looks to the left, 1.2 m up and 0.3 m in front of the robot's middle.
+/// Camera that faces left, 1.2 m above and 0.3 m ahead of the robot's centre.
 Pose leftCamera() {
   Eigen::Matrix3d R;
   R.col(0) = Vector3d::UnitX();
@@ -34,7 +34,7 @@ Pose leftCamera() {
   return Pose(R, Vector3d(0.3, 0.0, 1.2));
 }
 
-/// The robot passes along the wall at 1.2 m/s, swings its head and sways. `slip`: to the left, m/s.
+/// The robot passes the wall at 1.2 m/s, with oscillating heading and roll. `slip`: to the left, m/s.
 urban_nav_core::Trajectory drivenPath(double slip = 0.0) {
   urban_nav_core::Trajectory path;
   for (int i = 0; i < 320; ++i) {
@@ -47,7 +47,7 @@ urban_nav_core::Trajectory drivenPath(double slip = 0.0) {
   return path;
 }
 
-/// What the camera shows from a pose; each image has its own exposure.
+/// Returns the image from a pose; each image has its own exposure.
 Picture photograph(const Pose& T_map_camera, std::size_t image) {
   Picture picture{kViewWidth, kViewHeight, {}};
   const double exposure = 0.8 + 0.1 * static_cast<double>(image % 5);
@@ -64,7 +64,7 @@ Picture photograph(const Pose& T_map_camera, std::size_t image) {
   return picture;
 }
 
-/// Points of wall and ground, each measured as the robot passes it. `given`: the trajectory along which they are laid.
+/// Points of wall and ground, each measured when the robot passes it. `given`: the trajectory used for rendering.
 std::vector<MapPoint> surfacePoints(const urban_nav_core::Trajectory& path, const urban_nav_core::Trajectory& given) {
   std::vector<MapPoint> points;
   const auto add = [&](float x, float y, float z, const Eigen::Vector3f& normal) {
@@ -82,9 +82,9 @@ std::vector<MapPoint> surfacePoints(const urban_nav_core::Trajectory& path, cons
   return points;
 }
 
-/// Calibrates images that were taken `late` seconds before their stamps along `path`, by a camera that `turn` (rad,
-/// axes of the robot) takes from where it is stated to be to where it is. `given`: the trajectory as odometry has it.
-/// `range_bias`: of the lasers, m; here they are exact.
+/// Calibrates images taken `late` seconds before their stamps along `path`, by a camera whose mounting differs from the
+/// stated one by `turn` (rad, axes of the robot). `given`: the trajectory of odometry. `range_bias`: of the lasers, m;
+/// here they are exact.
 ViewCalibration calibrate(double late, const Vector3d& turn, const urban_nav_core::Trajectory& path,
                           const urban_nav_core::Trajectory& given,
                           const urban_nav_core::OdometryChain* odometry = nullptr, double range_bias = 0.0) {
@@ -157,7 +157,7 @@ TEST(ViewCalibration, WhereNothingIsWrongNothingIsAdopted) {
     EXPECT_LT(std::abs(term.value), std::max(3.0 * term.sigma, 5e-4));
 }
 
-/// Odometry along a path, uncertain by `sigma_y` (m) to the side each root of a second.
+/// Odometry along a path, with a lateral uncertainty of `sigma_y` (m) per root second.
 urban_nav_core::OdometryChain odometryAlong(const urban_nav_core::Trajectory& path, double sigma_y) {
   urban_nav_core::OdometryChain chain;
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -175,7 +175,7 @@ urban_nav_core::OdometryChain odometryAlong(const urban_nav_core::Trajectory& pa
 }
 
 TEST(ViewCalibration, ASlipThatOdometryAllowsForIsWithinTheStatedSigma) {
-  constexpr double kSlip = 0.004, kTurn = 1.0 * kHeadDegree;  // m/s: as if the head were turned by 0.19 deg
+  constexpr double kSlip = 0.004, kTurn = 1.0 * kHeadDegree;  // m/s: equivalent to a rotation of the head by 0.19 deg
   const urban_nav_core::Trajectory path = drivenPath(), given = drivenPath(-kSlip);
   const urban_nav_core::OdometryChain odometry = odometryAlong(given, 2.0 * kSlip);
   const ViewCalibration certain = calibrate(0.0, kTurn * Vector3d::UnitZ(), path, given),
@@ -190,7 +190,7 @@ TEST(ViewCalibration, ASlipThatOdometryAllowsForIsWithinTheStatedSigma) {
 }
 
 TEST(ViewCalibration, AConstantErrorOfTheLasersIsInTheStatedSigma) {
-  constexpr double kBias = 0.01;  // m; seen from some 6 m, as if the head were turned by 1.7 mrad
+  constexpr double kBias = 0.01;  // m; at about 6 m, equivalent to a rotation of the head by 1.7 mrad
   const Vector3d turn = kHeadDegree * Vector3d::UnitZ();
   const ViewCalibration exact = calibrate(0.0, turn, drivenPath()),
                         biased = calibrate(0.0, turn, drivenPath(), drivenPath(), nullptr, kBias);

@@ -13,7 +13,7 @@ using urban_nav_core::Pose;
 
 const Vector3d kHeadCentre(0.2, -0.1, 1.4), kSeenPoint(6.0, 3.0, 0.5);
 
-/// Along a curve at a constant twist, so that poses between the given ones are exact.
+/// Along a curve at constant twist, so that interpolated poses are exact.
 urban_nav_core::Trajectory curve() {
   urban_nav_core::Trajectory path;
   urban_nav_core::Vector6d twist;

@@ -45,7 +45,7 @@ TEST(MapProjection, FindsTheZone) {
   EXPECT_EQ(utmZoneCode({88.0 * kRad, 0.0, 0.0}), 0);
 }
 
-/// Where a map lies, and fixes of a drive around a rectangle in it.
+/// Pose of a map on the earth, and fixes of a drive around a rectangle in it.
 struct Drive {
   double yaw = 0.7;
   Vector3d shift{40.0, -25.0, 3.0};

@@ -25,7 +25,7 @@ constexpr StampNs kGap = 500'000'000, kSecondVisit = 40'000'000'000;
 const Vector3d kPerson(0.0, 3.0, 0.0);
 constexpr double kPersonRadius = 0.3, kPersonHeight = 1.7;
 
-/// Ends beams at a person who stands at kPerson.
+/// Ends beams at a person at kPerson.
 void addPerson(const Trajectory& T_map_base, std::vector<Scan>& scans) {
   for (Scan& scan : scans)
     for (urban_nav_core::Beam& beam : scan.beams) {
@@ -42,7 +42,7 @@ void addPerson(const Trajectory& T_map_base, std::vector<Scan>& scans) {
     }
 }
 
-/// The drive through the room, and the same 40 s later.
+/// The drive through the room, and the same drive 40 s later.
 Trajectory twoVisits() {
   Trajectory twice = testing_room::driveThroughRoom(20.0);
   const Trajectory once = twice;

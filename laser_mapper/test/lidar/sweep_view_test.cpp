@@ -47,7 +47,7 @@ TEST_F(SweepViews, NeverSeeThroughTheFloorHoweverFlatTheyGraze) {
 TEST_F(SweepViews, KnowNothingWithoutAPoseOrRings) {
   EXPECT_EQ(viewAt(testing_room::kRoomStart - 2'000'000'000).classify({6.0, 1.0, 1.0}), Sight::None);
   EXPECT_EQ(SweepView({}, trajectory_, Pose(), Pose(), 500'000'000).classify({6.0, 1.0, 1.0}), Sight::None);
-  // Beams of all elevations in one ring, as of a scanner without rings.
+  // Beams of all elevations in one ring, as for a scanner without rings.
   urban_nav_core::Scan all;
   for (const urban_nav_core::Scan& ring :
        testing_room::toRings(sweepOfScene(testing_room::rangeInRoom, trajectory_, middle_)))

@@ -20,7 +20,7 @@ using urban_nav_core::Vector3d;
 
 std::string liveMapPath() { return ::testing::TempDir() + "live_map_test.db"; }
 
-/// A map of the room; odometry begins at another place than the room's frame.
+/// Map of the room; odometry does not begin at the room's origin.
 class LiveMapTest : public ::testing::Test {
  protected:
   LiveMapTest() : map_(Parameters(), liveMapPath(), 10.0) { map_.placeLaser("laser_left", testing_room::roomLaser()); }
@@ -115,7 +115,7 @@ TEST_F(LiveMapTest, ScansOfALaserWithoutAPlaceAreCounted) {
   EXPECT_EQ(map_.counts().scans_unplaced, 1U);
 }
 
-/// Two rounds through the room by a robot whose odometry drifts; a pose in five is one of the graph.
+/// Two rounds through the room with drifting odometry; every fifth pose is in the graph.
 class LiveConstraintsTest : public ::testing::Test {
  protected:
   static constexpr std::size_t kNodeStep = 5;
@@ -143,7 +143,7 @@ class LiveConstraintsTest : public ::testing::Test {
     closure.b.stamp = truth_.front().stamp + std::llround(1e9 * b);
     closure.method = urban_nav_core::ClosureMethod::Icp;
     closure.verdict = verdict;
-    closure.measured.information = 1e12 * urban_nav_core::Matrix6d::Identity();  // more than planes tell
+    closure.measured.information = 1e12 * urban_nav_core::Matrix6d::Identity();  // exceeds that of the planes
     map_.addClosure(closure);
   }
   double error(const Pose& T_a_b, const urban_nav_core::RelativeConstraint& of) const {

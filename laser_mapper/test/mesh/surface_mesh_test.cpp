@@ -16,7 +16,7 @@ using Eigen::Vector3f;
 
 constexpr double kMeshVoxel = 0.05;
 
-/// Points of a sphere as seen from outside, some 4 cm apart, by tiles.
+/// Points of a sphere seen from outside, about 4 cm apart, by tile.
 std::map<Tile, std::vector<MapPoint>> spherePoints(const Vector3f& centre, float radius) {
   std::map<Tile, std::vector<MapPoint>> tiles;
   const int count = static_cast<int>(4.0F * static_cast<float>(M_PI) * radius * radius / (0.04F * 0.04F));

@@ -14,7 +14,7 @@ using urban_nav_core::StampNs;
 
 constexpr StampNs kDriftTick = 500'000'000;
 
-/// The step that ends at `tick`, with the covariance of `variance` times the identity.
+/// Returns the step that ends at `tick`, with the covariance `variance` times the identity.
 RelativePose stepTo(int tick, double variance, double drift = 0.0) {
   RelativePose step;
   step.from = (tick - 1) * kDriftTick;

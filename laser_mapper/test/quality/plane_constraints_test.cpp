@@ -40,8 +40,8 @@ const Plane kWallBeside[] = {{{0.0, 5.0, 1.0}, -Vector3d::UnitY()},
 const Plane kFloor[] = {
     {{0.0, 2.0, 0.0}, Vector3d::UnitZ()}, {{3.0, -3.0, 0.0}, Vector3d::UnitZ()}, {{6.0, 3.0, 0.0}, Vector3d::UnitZ()}};
 
-/// A robot that stands at one pose per pass, `passes` of them a minute apart, and whose map has pose i at
-/// boxPlus(true pose, drift of i).
+/// Robot that stands at one pose per pass, `passes` of them a minute apart, and whose map has pose i at boxPlus(true
+/// pose, drift of i).
 class PlaneConstraintTest : public ::testing::Test {
  protected:
   void stand(const std::vector<Vector6d>& drifts) {
@@ -57,7 +57,7 @@ class PlaneConstraintTest : public ::testing::Test {
   void see(const Plane (&planes)[N]) {
     for (const Plane& plane : planes) places_.push_back(seen(plane));
   }
-  /// The patches of a plane, each as its pass measured it, exactly, at another part of the plane.
+  /// Returns the patches of a plane, measured exactly in each pass at a different part of the plane.
   PlanePlace seen(const Plane& plane) const {
     PlanePlace place;
     for (std::size_t i = 0; i < truth_.size(); ++i) {
@@ -75,7 +75,7 @@ class PlaneConstraintTest : public ::testing::Test {
     return place;
   }
   std::vector<PlaneConstraint> find() const { return findPlaneConstraints(places_, {&trajectory_}, kBias, {nullptr}); }
-  /// Error of a measured transform, by the axes of pose a.
+  /// Returns the error of a measured transform, in the axes of pose a.
   Vector6d errorOf(const PlaneConstraint& constraint, std::size_t a = 0, std::size_t b = 1) const {
     return urban_nav_core::boxMinus(constraint.measured.T_a_b, truth_[a].inverse() * truth_[b]);
   }
@@ -97,7 +97,8 @@ TEST_F(PlaneConstraintTest, WallsAndFloorGiveTheTrueRelativePose) {
   EXPECT_EQ(constraints[0].stamp_a, kFirstPose);
   EXPECT_EQ(constraints[0].stamp_b, kFirstPose + kPassTime);
   EXPECT_EQ(constraints[0].planes, 11U);
-  // The equations are linear in the turn: what is left is of second order, 10 m of arm times the square of 7 mrad.
+  // The equations are linearised in the rotation: the remaining error is of second order, 10 m of lever times the
+  // square of 7 mrad.
   EXPECT_LT(errorOf(constraints[0]).head<3>().norm(), 1e-3);
   EXPECT_LT(errorOf(constraints[0]).tail<3>().norm(), 1e-4);
   EXPECT_GT(urban_nav_core::smallEigen<6>(constraints[0].measured.information).values(0), 1.0);
@@ -112,11 +113,11 @@ TEST_F(PlaneConstraintTest, OneWallTellsNothingAlongItselfNorOfTheTurnAboutItsNo
   const auto values = urban_nav_core::smallEigen<6>(information).values;
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(values(i), 0.0, 1e-9 * values(5));
   EXPECT_GT(values(3), 0.0);
-  // Residual of the truth: nil where the wall tells something.
+  // Residual of the ground truth: zero in directions with information from the wall.
   const Vector6d error = errorOf(constraints[0]);
   EXPECT_LT(error.dot(information * error), 0.1);
   EXPECT_GT(error.head<3>().norm(), 0.03) << "along the wall the map's own error stays";
-  // Moving pose b along the wall costs nothing.
+  // A motion of pose b along the wall has no residual.
   const Vector3d along = truth_[0].q().conjugate() * Vector3d::UnitY();
   Vector6d slide = Vector6d::Zero();
   slide.head<3>() = along;
@@ -189,17 +190,17 @@ TEST_F(PlaneConstraintTest, LasersThatHaveChangedSidesTellTheRollAsWellAsTheirCo
       }
     const auto constraints = find();
     ASSERT_EQ(constraints.size(), 1U);
-    // About the direction that has the lasers to its left and right, in the axes of pose a.
+    // About the direction with the lasers to its left and right, in the axes of pose a.
     const Vector3d ahead = mapped_[0].q().conjugate() * Vector3d::UnitX();
     const Matrix6d covariance = urban_nav_core::pseudoInverse(constraints[0].measured.information, 1e-9).value();
     const double roll = ahead.dot(errorOf(constraints[0]).tail<3>());
     ratio += roll * roll / ahead.dot(covariance.bottomRightCorner<3, 3>() * ahead) / kTrials;
   }
   EXPECT_GT(ratio, 0.5);
-  EXPECT_LT(ratio, 2.5);  // twice as large where all errors add up; without the lasers' part it is 5
+  EXPECT_LT(ratio, 2.5);  // twice as large where all errors add up; 5 without the part of the lasers
 }
 
-/// Constraint from two passes along ground and a wall, with an odometry that drifts meanwhile.
+/// Constraint from two passes along ground and a wall, with odometry that drifts during each pass.
 struct DriftTrial {
   Matrix6d information = Matrix6d::Zero();
   Vector6d error = Vector6d::Zero();

@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 constexpr double kVoxel = 0.05;
 constexpr urban_nav_core::StampNs kFirstPass = 1'225'719'872'000'000'000;
 
-/// What one pass measures of a wall near y = 3 m, x = 2...6, z = 0...3: turned about z by `turn` (rad) around x = 4,
-/// displaced by `shift` (m), with noise of `sigma`; `from`, `to`: the part of x that it measures.
+/// Measurement of a wall near y = 3 m, x = 2...6, z = 0...3 in one pass: rotated about z by `turn` (rad) around x = 4,
+/// displaced by `shift` (m), with noise of `sigma`; `from`, `to`: measured interval of x.
 PassCells wallOfPass(std::uint16_t pass, double turn, double shift, double sigma, double from = 2.0, double to = 6.0) {
   std::mt19937 random(pass + 1U);
   std::normal_distribution<double> noise(0.0, 1.0);

@@ -71,7 +71,8 @@ TEST_F(PlaneSearch, FindsTheDriftBetweenRoundsByTheirWalls) {
   }
   const auto count = static_cast<double>(constraints.size());
   EXPECT_GT(before / count, 100.0) << "the drift is many standard deviations";
-  // Rank 6 at most; the drift within the 4 s of a stretch, some 6 mm and 0.3 mrad here, is in no variance.
+  // Rank 6 at most; the drift within the 4 s of a stretch, about 6 mm and 0.3 mrad here, is not included in the
+  // variances.
   EXPECT_LT(after / count, 9.0);
   EXPECT_GT(information / count, 1.0 / (0.01 * 0.01)) << "1 cm and better";
 }

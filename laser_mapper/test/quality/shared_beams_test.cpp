@@ -31,7 +31,7 @@ urban_nav_core::Matrix6d informationOf(double sigma_m, double sigma_rad) {
   return information.asDiagonal();
 }
 
-/// Planes say 4 mm and 0.4 mrad of the middles of two stretches.
+/// Planes with an accuracy of 4 mm and 0.4 mrad between the middles of two stretches.
 PlaneConstraint constraintBetween(std::int64_t stretch_a, std::int64_t stretch_b, std::size_t session_b = 0) {
   PlaneConstraint constraint;
   constraint.stretch_a = stretch_a;
@@ -98,7 +98,7 @@ TEST(SharedBeamsTest, NothingIsLeftOfWhatAClosureTellsBetter) {
   const Trajectory trajectory = driveStraight();
   const SharedBeams strong({&trajectory}, {closureByClouds(1e-4, 1e-5)}, 10.0);
   EXPECT_TRUE(discounted(strong, constraintBetween(5, 20)).measured.information.isZero(0.0));
-  // A closure that tells one direction alone: planes keep what they tell along the others.
+  // A closure with information in one direction only: planes keep theirs in the others.
   CloudClosure across = closureByClouds(1e-4, 1e-5);
   across.measured.information.setZero();
   across.measured.information(1, 1) = 1e10;
@@ -113,7 +113,7 @@ TEST(SharedBeamsTest, NothingIsLeftOfWhatAClosureTellsBetter) {
 }
 
 TEST(SharedBeamsTest, InformationIsCarriedWithItsLeverInEitherOrder) {
-  // Position across the path and heading at 80 m tell, together, the position at 82 m.
+  // Lateral position and heading at 80 m together determine the position at 82 m.
   const Trajectory trajectory = driveStraight();
   const SharedBeams beams({&trajectory}, {closureByClouds(0.02, 0.002)}, 10.0);
   const PlaneConstraint constraint = constraintBetween(5, 20), reversed = constraintBetween(20, 5);

@@ -26,7 +26,7 @@ StretchWalk walkAlong(const DriftingPass& pass) {
   return StretchWalk(pass.mapped, pass.mapped[kWalkReference].stamp, kWalkBegin, pass.mapped.back().stamp, &pass.drift);
 }
 
-/// Covariance of a patch's displacement and turns relative to the reference pose, over many walks.
+/// Returns the covariance of a patch's displacement and rotations relative to the reference pose, over many walks.
 Matrix3d sampleCovariance(const Matrix6d& rate, const Vector3d& p, const PlaneAxes& axes, int trials) {
   std::mt19937 random(11);
   Matrix3d covariance = Matrix3d::Zero();
@@ -41,8 +41,8 @@ Matrix3d sampleCovariance(const Matrix6d& rate, const Vector3d& p, const PlaneAx
   return covariance;
 }
 
-/// Expects two covariances to be equal but for the scatter of `trials` samples, the steps of the walk, and what is of
-/// second order.
+/// Expects two covariances to be equal up to the sampling error of `trials` samples, the discretisation of the walk,
+/// and second-order terms.
 void expectSameCovariance(const Matrix3d& sampled, const Matrix3d& stated, int trials) {
   const double limit = 4.0 * std::sqrt(2.0 / trials) + 0.06;
   for (int i = 0; i < 3; ++i)

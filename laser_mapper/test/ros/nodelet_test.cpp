@@ -38,7 +38,7 @@ using urban_nav_core::Vector3d;
 constexpr StampNs kDriveStart = 1'225'719'872'000'000'000;
 constexpr int kFrames = 100;  // of 50 ms and 5 cm
 
-/// A robot that drives along x beside a wall at y = 4; its left laser is 1 m above the ground and looks to the left.
+/// Robot that drives along x beside a wall at y = 4; its left laser is 1 m above the ground and faces left.
 class WallRobot : public urban_nav_ros::testing::Listener {
  public:
   WallRobot() : Listener("laser_mapper") {
@@ -51,7 +51,7 @@ class WallRobot : public urban_nav_ros::testing::Listener {
   static StampNs toStamp(int frame) { return kDriveStart + frame * 50'000'000LL; }
   static Pose T_odom_base(int frame) { return Pose(Eigen::Matrix3d::Identity(), Vector3d(0.05 * frame, 0.0, 0.0)); }
 
-  /// Returns once the nodelet has received it: scans come on another connection.
+  /// Returns once the nodelet has received it: scans have a separate connection.
   void placeLaser() {
     Eigen::Matrix3d R;
     R << 0, 0, 1, 1, 0, 0, 0, 1, 0;
@@ -69,7 +69,7 @@ class WallRobot : public urban_nav_ros::testing::Listener {
       if (i > 0) left_.publish(scan(toStamp(i)));
     }
   }
-  /// Two rounds through a room with an odometry that drifts from the truth; poses every 100 ms.
+  /// Two rounds through a room with drifting odometry; poses every 100 ms.
   void driveRounds(const urban_nav_core::Trajectory& truth, const urban_nav_core::Trajectory& odometry) {
     tf2_msgs::TFMessage place;
     place.transforms.push_back(
@@ -94,7 +94,7 @@ class WallRobot : public urban_nav_ros::testing::Listener {
             testing_room::scanRoom(truth, testing_room::outwardLaser(), truth[i].stamp + ahead, 0.005, random)));
     }
   }
-  /// The graph moves all poses by dz.
+  /// Moves all poses of the graph by dz.
   void lift(std::int64_t revision, double dz) {
     urban_nav_core::GraphUpdate update;
     update.revision = revision;
@@ -105,7 +105,7 @@ class WallRobot : public urban_nav_ros::testing::Listener {
           {toStamp(i), Pose(Eigen::Matrix3d::Identity(), Vector3d(0.0, 0.0, dz)) * T_odom_base(i)});
     graph_.publish(urban_nav_ros::toGraphUpdateMessage(update, toStamp(kFrames - 1), "map"));
   }
-  /// Whether the last cloud has over `least` points, all on the wall or on the ground lifted by dz.
+  /// Returns whether the last cloud has over `least` points, all on the wall or on the ground moved by dz.
   bool showsWall(std::size_t least, double dz) const {
     if (clouds.empty() || clouds.back().width * clouds.back().height < least) return false;
     for (sensor_msgs::PointCloud2ConstIterator<float> p(clouds.back(), "x"); p != p.end(); ++p)
@@ -116,12 +116,12 @@ class WallRobot : public urban_nav_ros::testing::Listener {
     return std::abs(static_cast<double>(low) - dz) < 0.05;
   }
 
-  /// Whether the last cloud was made with the last pose of drive().
+  /// Returns whether the last cloud was rendered with the last pose of drive().
   bool hasLastPose() const {
     return !clouds.empty() && urban_nav_ros::toStampNs(clouds.back().header.stamp) == toStamp(kFrames - 1);
   }
 
-  /// The number of points in the last message of every tile.
+  /// Returns the number of points in the last message of every tile.
   std::size_t pointsOfTiles() const {
     std::map<std::pair<int, int>, std::size_t> last;
     for (const urban_nav_msgs::MapTile& tile : tiles) last[{tile.x, tile.y}] = tile.points.width;
@@ -180,7 +180,7 @@ TEST(LaserMapperNodelet, TheMapGrowsFollowsTheGraphAndIsForgotten) {
   ASSERT_TRUE(WallRobot::until([&] { return robot.isConnected(); }));
   robot.placeLaser();
   robot.drive();
-  // The wall is whole before the last pose: the cloud of that one may be the next.
+  // The wall is complete before the last pose, whose cloud may be the next one.
   ASSERT_TRUE(WallRobot::until([&] { return robot.showsWall(1500, 0.0) && robot.hasLastPose(); }))
       << robot.clouds.size() << " clouds";
   EXPECT_EQ(robot.clouds.back().header.frame_id, "map");
@@ -251,7 +251,7 @@ TEST(LaserMapperNodelet, PlanesOfTwoRoundsConstrainThePosesOfTheGraph) {
   const urban_nav_core::Trajectory truth = testing_room::driveRounds();
   const urban_nav_core::Trajectory drifting = testing_room::driftFrom(truth, 0.1);
   robot.driveRounds(truth, drifting);
-  for (int i = 0; i < 5 && robot.constraints.size() < 3; ++i)  // clouds are made meanwhile
+  for (int i = 0; i < 5 && robot.constraints.size() < 3; ++i)  // clouds are rendered in the meantime
     WallRobot::until([&] { return robot.constraints.size() > 2; });
   ASSERT_GT(robot.constraints.size(), 2U);
   double before = 0.0, after = 0.0;

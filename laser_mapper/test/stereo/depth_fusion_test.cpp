@@ -66,7 +66,7 @@ TEST_F(DepthFusion, LeavesOutWhatTooFewImagesSee) {
 }
 
 TEST_F(DepthFusion, LeavesOutWhatOthersSeeThrough) {
-  // A thing is at x = 6 m in the first three of nine images.
+  // An object is at x = 6 m in the first three of nine images.
   const Scene with_thing = [](const Vector3d& origin, const Vector3d& direction) {
     const double wall = testing_room::rangeInRoom(origin, direction), t = (6.0 - origin.x()) / direction.x();
     const Vector3d at = origin + t * direction;

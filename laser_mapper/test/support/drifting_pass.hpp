@@ -59,7 +59,7 @@ struct DriftingPass {
     }
   }
 
-  /// What the pass makes of a flat patch of 1.2 m around `p`, which it sees column by column as it drives by.
+  /// Returns the measurement of a flat patch of 1.2 m around `p`, scanned column by column while driving by.
   PlanePatch see(const Vector3d& p, const Vector3d& normal) const {
     const Vector3d across = normal.cross(Vector3d::UnitX());
     std::vector<Vector3d> points;

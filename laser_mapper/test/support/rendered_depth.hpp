@@ -9,7 +9,7 @@
 
 namespace laser_mapper::testing_room {
 
-/// Returns the range to what a ray meets, m. Direction: unit.
+/// Returns the range to the first intersection of a ray, m. Direction: unit vector.
 using Scene = std::function<double(const Vector3d& origin, const Vector3d& direction)>;
 
 /// A camera along the x axis of the robot, 1.2 m up.

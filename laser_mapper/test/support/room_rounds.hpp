@@ -26,7 +26,7 @@ inline urban_nav_core::Trajectory driveRounds() {
   return trajectory;
 }
 
-/// A laser 1 m up whose scan plane is upright and across the direction of travel, looking to the right: outwards.
+/// Laser 1 m up whose scan plane is upright and across the direction of travel, facing right: outwards.
 inline Pose outwardLaser() {
   Eigen::Matrix3d R;
   R.col(0) = -Vector3d::UnitY();
@@ -35,7 +35,7 @@ inline Pose outwardLaser() {
   return Pose(R, Vector3d(0.0, 0.0, 1.0));
 }
 
-/// The truth, displaced more and more: by `largest` (m) and a twentieth of it (rad, about z) in the end.
+/// The truth with a growing displacement: at the end `largest` (m) and a twentieth of it (rad, about z).
 inline urban_nav_core::Trajectory driftFrom(const urban_nav_core::Trajectory& truth, double largest) {
   urban_nav_core::Trajectory trajectory;
   for (std::size_t i = 0; i < truth.size(); ++i) {

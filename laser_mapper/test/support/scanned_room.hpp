@@ -46,7 +46,7 @@ inline urban_nav_core::Trajectory driveThroughRoom(double seconds, double speed 
   return trajectory;
 }
 
-/// A laser 1 m up whose scan plane is upright and across the direction of travel, looking to the left.
+/// Laser 1 m up whose scan plane is upright and across the direction of travel, facing left.
 inline Pose roomLaser() {
   Eigen::Matrix3d R;
   R.col(0) = Vector3d::UnitY();

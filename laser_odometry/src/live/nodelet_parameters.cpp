@@ -29,7 +29,7 @@ const Table<NodeletParameters>& nodeletTable() {
            "Name of the recording, part of the session ids; a second run of it is \"NAME (2)\".",
            "docs/architecture.md"},
           {"deskewed", &P::deskewed, "", false, false, true, {},
-           "Whether the driver has compensated the motion within a sweep already.", "docs/architecture.md"},
+           "Whether the driver already compensates the motion within a sweep.", "docs/architecture.md"},
           {"queue_size", &P::queue_size, "messages", std::int64_t{20}, std::int64_t{2}, std::int64_t{1000000}, {},
            "Inputs that may wait; beyond that the oldest is dropped and counted.", "docs/architecture.md"},
       });

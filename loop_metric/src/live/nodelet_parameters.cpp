@@ -21,7 +21,7 @@ const Table<NodeletParameters>& nodeletTable() {
            "Name of the recording, the same on all computers of the robot.", "docs/files.md"},
           {"store", &P::store, "", "", false, false, {},
            "Absolute path of the session store for keyframes, scans and odometry, committed each second; candidates "
-           "may name its earlier sessions. Empty: a temporary file. One writer a file.",
+           "may refer to its earlier sessions. Empty: a temporary file. One writer per file.",
            "docs/files.md"},
           {"candidate_timeout", &P::candidate_timeout, "s", 10.0, 0.0, 3600.0, {},
            "Largest time, by stamps, that a candidate waits until the robot has driven on by cloud_half_length "

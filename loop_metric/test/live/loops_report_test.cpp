@@ -11,13 +11,13 @@ TEST(LoopsReport, TheMostSevereFaultComesFirst) {
   EXPECT_EQ(makeReport(state).reason_name, "None");
   state.laser_pose_fault = "no static tf";
   EXPECT_EQ(makeReport(state).reason_name, "NoLaserPlace");
-  state.laser_fault = "/laser_left/scan has not come yet";
+  state.laser_fault = "/laser_left/scan has not been received yet";
   EXPECT_EQ(makeReport(state).reason_name, "NoLasers");
   state.image_fault = "/stereo/left/image_raw has been silent for 6.0 s";
   EXPECT_EQ(makeReport(state).reason_name, "NoImages");
   state.camera_fault = "other sizes";
   EXPECT_EQ(makeReport(state).reason_name, "NoCamera");
-  state.odometry_fault = "/vo/odometry has not come yet";
+  state.odometry_fault = "/vo/odometry has not been received yet";
   EXPECT_EQ(makeReport(state).reason_name, "NoOdometry");
   EXPECT_FALSE(makeReport(state).is_error);
   state.store.fault = "disk full";

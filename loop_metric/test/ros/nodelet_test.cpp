@@ -215,7 +215,7 @@ TEST_F(LoopMetricNodelet, LasersThatDoNotComeAreNamed) {
   const auto& status = robot().statuses.back();
   EXPECT_EQ(status.stage, "loop_metric");
   EXPECT_EQ(status.status, urban_nav_msgs::StageStatus::DEGRADED);
-  EXPECT_NE(status.message.find("/laser_left/scan has not come"), std::string::npos) << status.message;
+  EXPECT_NE(status.message.find("/laser_left/scan has not been received yet"), std::string::npos) << status.message;
 }
 
 TEST_F(LoopMetricNodelet, AFullDiskIsNamedAndWhatWaitedForItIsNotLost) {

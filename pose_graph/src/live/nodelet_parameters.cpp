@@ -23,7 +23,7 @@ const Table<NodeletParameters>& nodeletTable() {
           {"map_frame", &P::map_frame, "", frames::kMap, false, false, {},
            "Frame of the relaxed trajectory; its origin is the first pose of the first session.", "REP-105"},
           {"odom_frame", &P::odom_frame, "", frames::kOdom, false, false, {},
-           "Frame of the odometry, which map_frame is tied to.", "REP-105"},
+           "Frame of the odometry; the transform from map_frame to it is published.", "REP-105"},
           {"base_frame", &P::base_frame, "", frames::kBaseLink, false, false, {},
            "Frame of the robot, whose poses are the nodes of the graph.", "REP-105"},
           {"publish_tf", &P::publish_tf, "", true, false, true, {},
@@ -34,9 +34,8 @@ const Table<NodeletParameters>& nodeletTable() {
           {"recording", &P::recording, "", "", false, false, {},
            "Name of the recording, the same on all of the robot's computers.", "docs/architecture.md"},
           {"store", &P::store, "", "", false, false, {},
-           "Absolute path of the session store to which the graph is written while it grows, committed each second, "
-           "and from which it is resumed; "
-           "empty: none. One writer a file.", "docs/architecture.md"},
+           "Absolute path of the session store to which the graph is written, committed each second, and from which "
+           "it is resumed; empty: none. One writer per file.", "docs/architecture.md"},
           {"queue_size", &P::queue_size, "messages", 20000, 2, 10000000, {},
            "Inputs that may wait while a relaxation runs; beyond that the oldest is dropped and counted.",
            "docs/architecture.md", {"queue"}},
@@ -44,12 +43,12 @@ const Table<NodeletParameters>& nodeletTable() {
            "Time after an interrupt within which the last poses and closures of other stages are received and stored; "
            "longer than theirs. What is given up is logged.", "docs/architecture.md"},
           {"visualization_period", &P::visualization_period, "s", 1.0, 0.05, 3600.0, {},
-           "Shortest time between two publications of path and markers.", "", {"picture_period"}},
+           "Minimum time between two publications of path and markers.", "", {"picture_period"}},
           {"path_spacing", &P::path_spacing, "m", 1.0, 0.01, 1000.0, {},
            "Distance between poses of the published path.", "", {"picture_spacing"}},
           {"ground", &P::ground, "", true, false, true, {},
-           "Whether stereo/ground_plane levels the map where there is no accelerometer; it is subscribed until "
-           "imu/data arrives, and dense stereo works meanwhile.", "section 6.2"},
+           "Whether stereo/ground_plane levels the map without an accelerometer; it is subscribed, and dense stereo "
+           "runs, until imu/data arrives.", "section 6.2"},
       });
   return rows;
 }

@@ -12,16 +12,16 @@
 
 namespace scene_labeler {
 
-/// Classes of the labels of a source. Without a file the labels are the classes' own numbers.
+/// Map from the labels of a source to classes. Without a file, labels are the numbers of classes.
 class ClassMap {
  public:
   ClassMap() = default;
   /// Reads `id,class`; class `ignore` gives None. Throws UserError for an unknown class or an id that is listed twice.
   explicit ClassMap(const std::string& path);
 
-  /// Returns the class of each label. Throws UserError naming `where` for a label that the file does not list.
+  /// Returns the class of each label. Throws UserError naming `where` for a label that is not in the file.
   std::vector<SceneClass> toClasses(const std::vector<std::int64_t>& labels, const std::string& where) const;
-  /// Returns the class of a label; nullopt if the file does not list it, or without a file if it is no class.
+  /// Returns the class of a label; nullopt if it is not in the file, or without a file if it is not a class.
   std::optional<SceneClass> classOf(std::int64_t label) const;
 
  private:
@@ -29,7 +29,7 @@ class ClassMap {
   std::map<std::int64_t, SceneClass> classes_;
 };
 
-/// Returns the classes of an image of ids (CV_8U), None for ids that the map does not list; empty if it is of another
+/// Returns the classes of an image of labels (CV_8U), None for labels that are not in the map; empty for another pixel
 /// type.
 cv::Mat toClassImage(const cv::Mat& ids, const ClassMap& map);
 

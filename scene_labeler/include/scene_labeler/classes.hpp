@@ -10,7 +10,7 @@
 
 namespace scene_labeler {
 
-/// Classes of a laser return, by the numbers that files hold (Newman et al. 2009, section 8; docs/files.md).
+/// Classes of a laser return, with their numbers in files (Newman et al. 2009, section 8; docs/files.md).
 enum class SceneClass : std::uint8_t {
   Other = 0,
   Grass,
@@ -20,32 +20,32 @@ enum class SceneClass : std::uint8_t {
   SmoothWall,
   Foliage,
   Vehicle,
-  Wall,        ///< of a kind that its source does not distinguish
-  None = 255,  ///< not labelled, or no answer
+  Wall,        ///< wall of unknown kind
+  None = 255,  ///< unlabelled, or no answer
 };
 
-constexpr std::size_t kClassCount = 9;  ///< without None
+constexpr std::size_t kClassCount = 9;  ///< not counting None
 
 constexpr std::size_t toIndex(SceneClass scene_class) { return static_cast<std::size_t>(scene_class); }
 
 /// Returns the name in files: "other", "grass", "paved", ...; "none".
 const char* toString(SceneClass scene_class);
 
-/// Returns the class of a name; nullopt if it names none. "none" is not a class.
+/// Returns the class of a name; nullopt for other names. "none" is not a class.
 std::optional<SceneClass> classFromName(std::string_view name);
 
-/// Returns the names of all classes with ", " between them.
+/// Returns the names of all classes, separated by ", ".
 std::string classNames();
 
 /// Returns Wall for textured and smooth walls, and other classes unchanged.
 SceneClass withOneWall(SceneClass scene_class);
 
-/// Whether it is grass, paving or dirt.
+/// Returns whether the class is grass, paving or dirt.
 constexpr bool isKindOfGround(SceneClass scene_class) {
   return scene_class == SceneClass::Grass || scene_class == SceneClass::Paved || scene_class == SceneClass::DirtPath;
 }
 
-/// One number for each class, by toIndex().
+/// Value per class, indexed by toIndex().
 using ClassValues = std::array<float, kClassCount>;
 
 }  // namespace scene_labeler

@@ -23,7 +23,7 @@ void SideDrive::add(const urban_nav_core::PlanarScan& planar) {
   points_.clear();
   const urban_nav_core::Scan scan = urban_nav_core::toScan(planar);
   renderer_.render(scan, points_);
-  std::size_t beam = 0, index = 0;  // of scan.beams, of planar.ranges: each skips some of the next
+  std::size_t beam = 0, index = 0;  // of scan.beams and of planar.ranges, which omit different elements
   for (const urban_nav_core::LaserPoint& point : points_) {
     while (planar.ranges[index] != scan.beams[beam].range) ++index;
     while (scan.beams[beam].stamp != point.stamp || scan.beams[beam].range != point.range) {

@@ -40,7 +40,7 @@ Cell cellOfKey(std::uint64_t key) {
   return {part(0), part(21), part(42)};
 }
 
-/// Gives each cube the weight of one point.
+/// Normalises each cube to the weight of one point.
 void normalise(CubeLevel& level) {
   for (Moments& cube : level.cubes) {
     cube.sum /= cube.count;

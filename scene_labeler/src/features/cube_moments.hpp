@@ -10,7 +10,7 @@
 
 namespace scene_labeler {
 
-/// Moments of points from an origin of their own.
+/// Moments of points relative to their own origin.
 struct Moments {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();
@@ -22,31 +22,31 @@ struct Moments {
   Eigen::Matrix3d covariance() const;
 };
 
-/// The same points in cubes of one size, each cube with equal weight for each of the next smaller cubes in it, so that
-/// the density of the beams does not matter.
+/// Points in cubes of one size, in which each of the next smaller cubes has equal weight, so that the density of the
+/// beams has no influence.
 struct CubeLevel {
   float edge = 0.0F;  ///< m
   urban_nav_registration::CellTable table{16};
-  std::vector<std::uint64_t> keys;  ///< of each cube
+  std::vector<std::uint64_t> keys;  ///< per cube
   std::vector<Moments> cubes;
-  std::vector<std::uint32_t> cube_of;  ///< of each point; CellTable::none for points that are not finite
+  std::vector<std::uint32_t> cube_of;  ///< per point; CellTable::none for points that are not finite
 };
 
-/// Cubes of 0.1, 0.2 and 0.4 m. A neighbourhood of 2.4 m (cubes of 0.8 m) and more describes the layout of the few
-/// places that a classifier is trained on, not the surface.
+/// Cubes of 0.1, 0.2 and 0.4 m. A neighbourhood of 2.4 m (cubes of 0.8 m) or more describes the layout of the few
+/// training places rather than the surface.
 constexpr std::size_t kShapeLevels = 3;
 constexpr float kFinestCube = 0.1F;  ///< m
 
 using CubeLevels = std::array<CubeLevel, kShapeLevels>;
 
-/// Sorts points into cubes of all levels, relative to `origin`.
+/// Assigns points to cubes of all levels, relative to `origin`.
 CubeLevels makeCubeLevels(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& origin);
 
-/// Returns the mean of values over each cube of a level, each of the next smaller cubes in it with equal weight.
+/// Returns the mean of values over each cube of a level, in which each of the next smaller cubes has equal weight.
 /// `values`: one per point.
 std::vector<float> meanOverCubes(const CubeLevels& levels, std::size_t level, const std::vector<float>& values);
 
-/// Calls take(cube) for a cube and each of its neighbours that exist, up to 26.
+/// Calls take(cube) for a cube and each of its existing neighbours, up to 26.
 template <typename Take>
 void forEachNeighbour(const CubeLevel& level, std::uint64_t key, const Take& take) {
   for (int k = -1; k <= 1; ++k)

@@ -13,7 +13,7 @@ namespace {
 using urban_nav_registration::CellTable;
 
 constexpr float kColumnEdge = 0.5F;   // m
-constexpr float kGroundSlope = 0.2F;  // steeper ground is rare on campuses and in streets
+constexpr float kGroundSlope = 0.2F;  // steeper ground is rare on campuses and streets
 constexpr int kGroundReach = 30;      // columns: 15 m
 
 struct Column {
@@ -25,7 +25,7 @@ struct Column {
 struct ColumnGrid {
   CellTable table{16};
   std::vector<Column> columns;
-  std::vector<std::uint32_t> column_of;  // of each cube
+  std::vector<std::uint32_t> column_of;  // per cube
 };
 
 std::uint64_t columnKey(int x, int y) { return urban_nav_registration::toKey({x, y, 0}); }
@@ -49,8 +49,8 @@ ColumnGrid makeColumns(const CubeLevel& level) {
   return grid;
 }
 
-/// Heights of the lower envelope at each column: two passes of a distance transform over the columns' rectangle would
-/// cost the rectangle, which may be long and thin; the columns within reach are looked up instead.
+/// Heights of the lower envelope at each column. Columns within reach are looked up directly, because a distance
+/// transform would process their bounding rectangle, which may be long and thin.
 struct Surrounding {
   float ground = 0.0F, low_1 = 0.0F, low_3 = 0.0F, high_1 = 0.0F;
 };
@@ -87,7 +87,7 @@ Surrounding measureSurrounding(const ColumnGrid& grid, const Column& column, con
 std::vector<ColumnHeights> measureHeights(const CubeLevel& level) {
   const ColumnGrid grid = makeColumns(level);
   CellTable coarse_table(grid.columns.size() / 8 + 16);
-  std::vector<Column> coarse;  // the lowest column of each square of four by four
+  std::vector<Column> coarse;  // lowest column of each square of four by four
   for (const Column& column : grid.columns) {
     const std::uint32_t number = coarse_table.insert(columnKey(column.x >> 2, column.y >> 2));
     if (number == coarse.size()) coarse.push_back(column);

@@ -13,10 +13,10 @@ namespace {
 
 constexpr int kSaturated = 250, kBlack = 8;           // of 255, brightest channel
 constexpr std::array<int, 2> kWindowRadii = {3, 10};  // px
-constexpr double kLeastValidShare = 0.25;             // of a window's pixels that count
+constexpr double kLeastValidShare = 0.25;             // valid pixels of a window
 constexpr int kPaperRadius = 7, kHistogramBins = 8;
 
-/// What is summed over windows.
+/// Quantities summed over windows.
 enum Channel {
   Valid,
   Light,
@@ -32,7 +32,7 @@ enum Channel {
   ChannelCount
 };
 
-/// Sums over rectangles of a picture's channels, each weighted by the pixel's validity.
+/// Sums over rectangles of a picture's channels, weighted by the pixels' validity.
 class WindowSums {
  public:
   explicit WindowSums(std::vector<cv::Mat> channels) : channels_(channels.size()) {
@@ -106,7 +106,7 @@ std::vector<cv::Mat> lookChannels(const cv::Mat& image) {
   return channels;
 }
 
-/// Means over the whole image, to which a window is compared: exposure and white balance differ from image to image.
+/// Means over the whole image, as reference for windows, since exposure and white balance differ between images.
 struct ImageMeans {
   float light = 0.0F, red = 0.0F, green = 0.0F, gradient = 0.0F;
 };
@@ -145,7 +145,7 @@ ImageMeans imageMeans(const WindowSums& sums, const cv::Mat& image) {
           static_cast<float>((sums.sum(Across, whole) + sums.sum(Down, whole)) / valid)};
 }
 
-/// Calls write(i, pixel) for the returns that the image shows, several at a time.
+/// Calls write(i, pixel) for the returns visible in the image, concurrently.
 template <typename Write>
 void forEachVisible(const SceneView& view, const Write& write) {
   const std::vector<std::uint8_t>& visible = view.is_visible;

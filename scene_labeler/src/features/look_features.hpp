@@ -9,14 +9,14 @@
 
 namespace scene_labeler {
 
-/// Names of the features of the image around a return: colour, its deviation, and gradients in two windows.
+/// Returns the names of the image features of a return: colour, its deviation, and gradients in two windows.
 std::vector<std::string> lookFeatureNames();
 
-/// Writes the features of the image into columns `first`, `first` + 1, ... for the returns that it shows. Pixels that
-/// are saturated or black do not count; a window that has too few others leaves its features missing.
+/// Writes the image features into columns `first`, `first` + 1, ... for the visible returns. Saturated and black pixels
+/// are ignored; features of a window with too few others are missing.
 void measureLook(const Scene& scene, std::size_t first, FeatureTable& table);
 
-/// Names of the histograms of hue and saturation in a window of 15x15 px (Newman et al. 2009, section 8.1).
+/// Returns the names of the histograms of hue and saturation in a window of 15x15 px (Newman et al. 2009, section 8.1).
 std::vector<std::string> paperLookNames();
 void measurePaperLook(const Scene& scene, std::size_t first, FeatureTable& table);
 

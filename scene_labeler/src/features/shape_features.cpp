@@ -16,15 +16,15 @@ namespace {
 
 using urban_nav_registration::CellTable;
 
-constexpr float kLeastPlanarity = 0.4F;  // of a surface with a normal
+constexpr float kLeastPlanarity = 0.4F;  // least value of a surface with a normal
 
-/// How the cubes around a cube lie; the shape of fewer than `kLeastCubes` is missing.
+/// Shape of the cubes around a cube; missing with fewer than `kLeastCubes`.
 struct CubeShape {
   bool is_known = false;
-  float linearity = 0.0F, planarity = 0.0F, scatter = 0.0F;  // of deviations: l1 >= l2 >= l3
+  float linearity = 0.0F, planarity = 0.0F, scatter = 0.0F;  // from deviations l1 >= l2 >= l3
   float normal_z = 0.0F, tangent_z = 0.0F;                   // absolute
   float roughness = 0.0F;                                    // deviation along the normal, m
-  float vertical = 0.0F;                                     // deviation in height, of the edge
+  float vertical = 0.0F;                                     // deviation in height, relative to the edge
   float occupied = 0.0F;                                     // share of the 27 cubes
   Eigen::Vector3f mean = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::UnitZ();
 
@@ -102,7 +102,7 @@ void writeHeights(const CubeLevel& level, std::size_t first, FeatureTable& table
 }
 constexpr std::size_t kHeightValues = 6;
 
-/// Returns the reflectance without the influence of range and incidence where the place of the sensor is known.
+/// Returns the reflectance normalised for range and incidence where the sensor's position is known.
 std::vector<float> normalisedReflectance(const Scene& scene, const CubeLevel& level,
                                          const std::vector<CubeShape>& shapes) {
   if (scene.to_sensor.empty()) return scene.reflectance;
@@ -143,7 +143,7 @@ void writeReflectance(const CubeLevels& levels, const std::vector<float>& reflec
   }
 }
 
-/// Near the points, single precision is enough.
+/// Near the points, so that single precision suffices.
 Eigen::Vector3f chooseOrigin(const std::vector<Eigen::Vector3f>& points) {
   for (const Eigen::Vector3f& point : points)
     if (point.allFinite()) return point.array().round();

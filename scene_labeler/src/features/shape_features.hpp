@@ -9,16 +9,16 @@
 
 namespace scene_labeler {
 
-/// Names of the features of the cloud, reflectance last.
+/// Returns the names of the cloud features, reflectance last.
 std::vector<std::string> shapeFeatureNames();
 
-/// Writes the features of the cloud into columns `first`, `first` + 1, ... of a table with a row per return.
+/// Writes the cloud features into columns `first`, `first` + 1, ... of a table with a row per return.
 void measureShape(const Scene& scene, bool with_reflectance, std::size_t first, FeatureTable& table);
 
-/// Returns the unit normal of the surface around each point, of either sign; zero where there is no surface.
+/// Returns the unit normal of the surface around each point, of either sign; zero without a surface.
 std::vector<Eigen::Vector3f> measureNormals(const std::vector<Eigen::Vector3f>& points);
 
-/// Names of the features of the cloud that the paper uses: height over ground, vertical part of the normal, planarity.
+/// Returns the names of the paper's cloud features: height above ground, vertical component of the normal, planarity.
 std::vector<std::string> paperShapeNames();
 void measurePaperShape(const Scene& scene, std::size_t first, FeatureTable& table);
 

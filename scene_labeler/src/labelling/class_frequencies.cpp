@@ -10,8 +10,8 @@
 namespace scene_labeler {
 namespace {
 
-constexpr double kTrainedWeight = 8000.0;  // returns, that the frequencies of training count for
-constexpr double kMemory = 1e5;            // returns, of 15 s of one laser, near
+constexpr double kTrainedWeight = 8000.0;  // returns, weight of the training frequencies
+constexpr double kMemory = 1e5;            // returns, about 15 s of one laser at short range
 constexpr double kUsedShare = 0.5;         // of the logarithm of frequencies
 constexpr int kIterations = 5;
 
@@ -31,7 +31,7 @@ std::vector<float> ClassFrequencies::shifts(const std::vector<double>& sums) con
   const double total = sumOf(sums) + kTrainedWeight;
   std::vector<float> made(classes_, 0.0F);
   for (std::size_t k = 0; k < classes_; ++k) {
-    if (!(trained_[k] > 0.0)) continue;  // a class that was taught later: how frequent it is nobody knows
+    if (!(trained_[k] > 0.0)) continue;  // a class added later, of unknown frequency
     const double here = (sums[k] + kTrainedWeight * trained_[k]) / total;
     made[k] = static_cast<float>(kUsedShare * std::log(here / trained_[k]));
   }

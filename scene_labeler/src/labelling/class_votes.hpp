@@ -9,15 +9,15 @@
 
 namespace scene_labeler {
 
-/// What class images of another source say of the classes of a model. An image is right at a share of its pixels; where
-/// it is wrong, all other classes are as probable.
+/// Evidence of class images of another source on the classes of a model. A given share of an image's pixels is right;
+/// where it is wrong, all other classes are equally probable.
 class ClassVotes {
  public:
   /// `classes`: of the model. `accuracy`: share of the pixels that are right, between 0 and 1.
   ClassVotes(const std::vector<SceneClass>& classes, double accuracy);
 
-  /// Adds to `logs`, one value for each class, the log probabilities of the classes given an image (CV_8U, SceneClass)
-  /// at a pixel of it. Returns false and adds nothing if the image names no class of the model there.
+  /// Adds to `logs`, one value per class, the log probabilities of the classes given an image (CV_8U, SceneClass) at a
+  /// pixel of it. Returns false, without effect, if the image has no class of the model there.
   bool add(const cv::Mat& image, const Eigen::Vector2f& pixel, float* logs) const;
 
  private:

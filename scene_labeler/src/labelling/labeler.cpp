@@ -13,11 +13,11 @@ namespace scene_labeler {
 namespace {
 
 constexpr float kSureProbability = 0.5F;
-/// In a scene that is unlike the training data, stated probabilities are too high.
+/// In a scene unlike the training data, the model's probabilities are too high.
 constexpr float kNovelSceneShare = 0.1F, kSureInNovelScene = 0.7F, kSureOfOtherDevice = 0.8F, kSureInNewPlace = 0.8F;
 
-/// Returns the probability from which an answer counts as sure: more for another device than that of the training data,
-/// and for a scene with many returns unlike these.
+/// Returns the least probability of a certain answer: higher for a device other than that of the training data, and for
+/// a scene with many returns unlike these.
 float leastSureProbability(const LabelModel& model, const Scene& scene, const std::vector<std::uint8_t>& is_asked,
                            const std::vector<std::uint8_t>& is_novel, double share_unlike) {
   if (isNewPlace(share_unlike)) return kSureInNewPlace;
@@ -28,7 +28,7 @@ float leastSureProbability(const LabelModel& model, const Scene& scene, const st
                                                                                   : kSureProbability;
 }
 
-/// Log probabilities of the returns, fused over patches in place.
+/// Fuses the log probabilities of the returns over patches, in place.
 void fusePatches(const LabelModel& model, const std::vector<std::uint32_t>& patches, std::vector<float>& logs) {
   const std::size_t classes = model.classes.size();
   std::vector<double> sums;
@@ -70,7 +70,7 @@ void spreadInScene(const Scene& scene, const std::vector<SceneClass>& classes, s
   spreadToHidden(scene.points, is_shown, is_hidden, classes, logs);
 }
 
-/// One class for each superpixel that has returns with an answer: that of the largest sum of probabilities.
+/// Assigns to each superpixel with labelled returns the class with the largest sum of probabilities.
 cv::Mat paintSuperpixels(const Scene& scene, const Superpixels& superpixels, const SceneLabels& result) {
   const std::size_t classes = result.classes.size();
   const std::vector<std::uint8_t>& visible = scene.view.is_visible;

@@ -191,7 +191,7 @@ void MapLabeler::giveLabels(const SquarePoints& square) {
 }
 
 void MapLabeler::labelRowsBelow(double y) {
-  const auto isComplete = [&](int row) {  // the row after it is one of its surroundings
+  const auto isComplete = [&](int row) {  // the next row belongs to its surroundings
     return static_cast<double>(row + 2) * kSquareEdge + options_.reach <= y;
   };
   for (auto& [square, own] : squares_) {

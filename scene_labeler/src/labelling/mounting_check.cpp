@@ -9,12 +9,12 @@
 namespace scene_labeler {
 namespace {
 
-constexpr std::size_t kMostFrames = 4;                             // then the camera is known
-constexpr std::size_t kLeastCompared = 200, kMostCompared = 2000;  // of a frame
-constexpr float kSureByShape = 0.7F;                               // probability of a class by shape alone
-constexpr float kLeastImageLog = -4.0F;                            // one return decides nothing
+constexpr std::size_t kMostFrames = 4;                             // frames after which the result is final
+constexpr std::size_t kLeastCompared = 200, kMostCompared = 2000;  // returns per frame
+constexpr float kSureByShape = 0.7F;                               // least probability of a class by shape
+constexpr float kLeastImageLog = -4.0F;                            // limits the influence of a single return
 
-/// What shape tells apart for sure: lawn and path differ in it by little, and less the less exact the poses are.
+/// Kinds that shape distinguishes reliably; lawn and path differ little, and less with inaccurate poses.
 enum class ShapeKind { Ground, Wall, Foliage, Other };
 
 ShapeKind shapeKind(SceneClass label) {
@@ -30,7 +30,7 @@ ShapeKind shapeKind(SceneClass label) {
   }
 }
 
-/// Logarithm of the probability that a return is of that kind, not less than kLeastImageLog.
+/// Returns the log probability that a return is of that kind, at least kLeastImageLog.
 double logOfKind(const LabelModel& model, ShapeKind kind, const std::vector<float>& logs) {
   float sum = 0.0F;
   for (std::size_t k = 0; k < logs.size(); ++k)

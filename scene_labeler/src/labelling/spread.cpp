@@ -12,18 +12,18 @@ namespace {
 
 using urban_nav_registration::CellTable;
 
-constexpr double kShareOfAny = 0.02;  // of a class that no point around has, together with all others
+constexpr double kShareOfAny = 0.02;  // total probability of classes without a point in the surroundings
 
 struct SpreadSettings {
-  float per_m = 1.0F / 1.6F;        // of cubes whose neighbours count as surroundings
-  double least_sources = 5.0;       // points around
-  float own = 1.0F, around = 1.0F;  // powers of the point's probabilities and of those around
-  std::vector<std::size_t> kinds;   // classes that a point without look hardly tells apart
+  float per_m = 1.0F / 1.6F;        // inverse edge of cubes whose neighbours are the surroundings
+  double least_sources = 5.0;       // least number of points around
+  float own = 1.0F, around = 1.0F;  // exponents of the probabilities of the point and of its surroundings
+  std::vector<std::size_t> kinds;   // classes that are hardly distinguished without an image
 };
 
-constexpr float kOwnOfKinds = 0.5F;  // power of a point's probabilities among those
+constexpr float kOwnOfKinds = 0.5F;  // exponent of a point's probabilities among those
 
-/// Takes the logarithms of probabilities among some classes to a power; the sum of the probabilities of these stays.
+/// Raises the probabilities of some classes, given as logarithms, to a power and preserves their sum.
 void flatten(const std::vector<std::size_t>& kinds, float power, float* logs) {
   if (kinds.size() < 2) return;
   float highest = logs[kinds.front()];
@@ -43,7 +43,7 @@ void spreadLogs(const std::vector<Eigen::Vector3f>& points, const std::vector<st
   if (points.empty()) return;
   const float limit = static_cast<float>(urban_nav_registration::kFarthestCell) / settings.per_m;
   CellTable table(points.size() / 64 + 16);
-  std::vector<double> sums;  // cube by cube: number of points, then the sum of probabilities of each class
+  std::vector<double> sums;  // per cube: number of points, then the sum of probabilities of each class
   const std::size_t stride = classes + 1;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (is_source[i] == 0 || !points[i].allFinite() || !(points[i].cwiseAbs().maxCoeff() < limit)) continue;

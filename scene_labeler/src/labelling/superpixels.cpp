@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSlicIterations = 5;
 constexpr float kSlicRuler = 15.0F;   // compactness
-constexpr float kDepthRatio = 1.15F;  // between neighbours in the order of depth: a larger step begins a new patch
+constexpr float kDepthRatio = 1.15F;  // between consecutive depths: a larger ratio begins a new patch
 constexpr float kPatchCube = 0.4F;    // m
 
 std::vector<std::uint32_t> cubePatches(const std::vector<Eigen::Vector3f>& points) {

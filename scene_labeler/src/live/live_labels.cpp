@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t kMostWaitingScans = 4000, kMostWaitingImages = 40;  // per side
 constexpr std::size_t kMostWaitingClasses = 40;                           // per side
 constexpr StampNs kOdometryPatience = 60'000'000'000;  // ns of scans of a new drive that wait for its odometry
-constexpr double kClassPatience = 2.0;                 // s of odometry after an image whose class image has not come
-constexpr double kCameraPatience = 2.0;                // s of scans that wait for the calibration of a camera
+constexpr double kClassPatience = 2.0;                 // s of odometry to wait for the class image of an image
+constexpr double kCameraPatience = 2.0;                // s of scans to wait for the calibration of a camera
 
 StampNs scanEnd(const urban_nav_core::PlanarScan& scan) {
   const double seconds = scan.time_step * static_cast<double>(scan.ranges.size());

@@ -21,17 +21,17 @@ namespace scene_labeler {
 /// new drive (urban_nav_live::RoundGate). Sides: 0 left, 1 right. Not thread-safe.
 class LiveLabels {
  public:
-  /// Decodes an image that is needed.
+  /// Decodes an image on demand.
   using Decode = std::function<cv::Mat()>;
   /// `image`: called with each frame.
   struct Outputs {
     DriveLabeler::TakeLabels cloud;
     std::function<void(std::size_t side, const DriveFrame& frame, const cv::Mat& classes)> image;
   };
-  /// Figures for the operator.
+  /// Statistics for the operator.
   struct Counts {
     std::size_t scans = 0, images = 0, poses = 0;
-    std::size_t dropped = 0;  ///< scans and images for which odometry never came
+    std::size_t dropped = 0;  ///< scans and images for which no odometry was received
     std::size_t drives = 0;
     std::size_t frames = 0, imaged_frames = 0, blind_frames = 0, upside_down_frames = 0, class_frames = 0,
                 new_place_frames = 0;
@@ -49,20 +49,21 @@ class LiveLabels {
   void addPose(const urban_nav_core::StampedPose& T_odom_base);
   void addScan(std::size_t side, urban_nav_core::PlanarScan scan);
   void addImage(std::size_t side, urban_nav_core::StampNs stamp, Decode decode);
-  /// Adds a class image by another source (CV_8U, SceneClass), of the image with this stamp. Images wait for theirs at
-  /// most 2 s, if there is a class topic.
+  /// Adds a class image of another source (CV_8U, SceneClass), for the image with this stamp. If there is a class
+  /// topic, images wait for theirs for at most 2 s.
   void addClasses(std::size_t side, urban_nav_core::StampNs stamp, const cv::Mat& classes);
-  /// Labels what arrived after the poses of its time, without the next pose.
+  /// Processes measurements that arrived after the poses of their time, without waiting for the next pose.
   void catchUp();
-  /// Begins a new drive. Laser and camera places stay, and so do corrections.
+  /// Begins a new drive. Mountings of lasers and cameras and corrections are kept.
   void reset();
 
-  /// Says what the superpixels at a place in the world show (LiveTeaching::correct()).
+  /// Corrects the superpixels at a position in the world (LiveTeaching::correct()).
   std::string correct(const Eigen::Vector3f& place, SceneClass label) { return teaching_.correct(place, label); }
-  /// Goes on with the taught model, once it is trained: what the old one has seen is settled. Returns whether it was.
+  /// Switches to the retrained model if it is ready, after labelling what the old one has processed. Returns whether it
+  /// did.
   bool adoptTaughtModel();
   const LiveTeaching& teaching() const { return teaching_; }
-  /// Returns the model that is used.
+  /// Returns the current model.
   const LabelModel& model() const { return *model_; }
 
   Counts counts() const;
@@ -78,15 +79,16 @@ class LiveLabels {
     std::optional<SideRig::Camera> camera;
     std::deque<urban_nav_core::PlanarScan> scans;
     std::deque<WaitingImage> images;
-    std::map<urban_nav_core::StampNs, cv::Mat> classes;  // by the stamp of the image that they are of
+    std::map<urban_nav_core::StampNs, cv::Mat> classes;  // by the stamp of their image
     std::unique_ptr<DriveLabeler> labeler;
     std::unique_ptr<DriveWindow> window;
     std::unique_ptr<SideDrive> drive;
   };
   using Add = std::function<void()>;
-  enum Stream { kOdometryStream = 0, kScanStream = 1, kImageStream = 3, kClassStream = 5 };  // the latter for each side
+  enum Stream { kOdometryStream = 0, kScanStream = 1, kImageStream = 3, kClassStream = 5 };  // the last three once per
+                                                                                             // side
   void sortByRound();
-  /// Settles the drive, and begins another one.
+  /// Labels the remaining returns of the drive, and begins another one.
   void beginDrive();
   void clear();
   void take(const urban_nav_core::StampedPose& T_odom_base);
@@ -94,7 +96,7 @@ class LiveLabels {
   void work(std::size_t side);
   void start(std::size_t side);
   void count(const LiveSide& side, Counts& counts) const;
-  /// Adds the images whose time odometry covers. Returns false if one waits for its class image.
+  /// Adds the images at times covered by odometry. Returns false if one waits for its class image.
   bool workImages(LiveSide& side);
 
   const Parameters parameters_;

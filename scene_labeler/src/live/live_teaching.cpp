@@ -12,9 +12,9 @@ namespace scene_labeler {
 namespace {
 
 constexpr std::size_t kMostScenes = 24;
-constexpr float kFarthestReturn = 0.3F;  // m, from the place that was clicked
+constexpr float kFarthestReturn = 0.3F;  // m, from the clicked position
 
-/// Returns the labelled point nearest to a place; nullopt beyond kFarthestReturn.
+/// Returns the labelled point nearest to a position; nullopt beyond kFarthestReturn.
 std::optional<std::size_t> nearestPoint(const DriveScene& drive, const Eigen::Vector3f& place) {
   const Eigen::Vector3f local = place - drive.origin;
   float nearest = kFarthestReturn * kFarthestReturn;
@@ -45,16 +45,16 @@ void LiveTeaching::keep(DriveScene drive) {
 
 std::string LiveTeaching::correct(const Eigen::Vector3f& place, SceneClass label) {
   if (base_->samples.empty())
-    throw urban_nav_core::UserError(parameters_.model, "holds no training samples",
+    throw urban_nav_core::UserError(parameters_.model, "has no training samples",
                                     "a model that labels train wrote with samples (version 3)");
   std::vector<ShownCorrection> shown;
   for (const std::shared_ptr<const DriveScene>& drive : scenes_)
     if (const auto point = nearestPoint(*drive, place)) shown.push_back({drive, {*point, label}});
   if (shown.empty())
-    throw urban_nav_core::UserError("",
-                                    "none of the last " + std::to_string(scenes_.size()) +
-                                        " frames has a return within 0.3 m of the point that was clicked",
-                                    "a point of labels/cloud");
+    throw urban_nav_core::UserError(
+        "",
+        "none of the last " + std::to_string(scenes_.size()) + " frames has a return within 0.3 m of the clicked point",
+        "a point of labels/cloud");
   const std::size_t frames = shown.size();
   corrections_.push_back(std::move(shown));
   if (is_training_) is_outdated_ = true;

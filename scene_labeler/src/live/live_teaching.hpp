@@ -16,34 +16,34 @@
 
 namespace scene_labeler {
 
-/// Teaches a model the classes that a person gives to superpixels of the last frames. Trains on a thread of its own,
-/// from the samples of the model and all corrections so far. Called by one thread, which never waits for the training.
+/// Retrains a model with the classes that a user assigns to superpixels of recent frames, from the samples of the model
+/// and all corrections so far, in a background thread. Used by one thread, which never blocks on the training.
 class LiveTeaching {
  public:
   LiveTeaching(const Parameters& parameters, std::shared_ptr<const LabelModel> base);
-  /// Stops a training.
+  /// Aborts a running training.
   ~LiveTeaching();
   LiveTeaching(const LiveTeaching&) = delete;
   LiveTeaching& operator=(const LiveTeaching&) = delete;
 
-  /// Keeps the scene of a frame, of which the last 24 can be corrected.
+  /// Stores the scene of a frame; the last 24 can be corrected.
   void keep(DriveScene drive);
-  /// Corrects the superpixels at a place, m, in each frame that shows it, and begins to train, unless a training runs:
-  /// the next one then begins after it. Returns what was corrected. Throws UserError if the model holds no samples, and
-  /// if no frame has a return within 0.3 m.
+  /// Corrects the superpixels at a position, m, in each frame in which it is visible, and begins to train, after a
+  /// training that is running. Returns a description of the correction. Throws UserError if the model has no samples,
+  /// and if no frame has a return within 0.3 m.
   std::string correct(const Eigen::Vector3f& place, SceneClass label);
-  /// Returns the taught model once it is trained. Throws DataError if the training failed.
+  /// Returns the retrained model once it is ready. Throws DataError if the training failed.
   std::optional<LabelModel> takeTaught();
 
   bool isTraining() const { return is_training_; }
-  /// Returns the share of the training that is done.
+  /// Returns the progress of the training, 0...1.
   double progress() const { return progress_; }
   std::size_t corrections() const { return corrections_.size(); }
-  /// Forgets the scenes, not the corrections: a new drive has its own origin.
+  /// Drops the scenes, but not the corrections: a new drive has another origin.
   void forgetScenes() { scenes_.clear(); }
 
  private:
-  /// A correction as one frame shows it.
+  /// Correction in one frame.
   struct ShownCorrection {
     std::shared_ptr<const DriveScene> drive;
     PatchCorrection patch;
@@ -56,11 +56,11 @@ class LiveTeaching {
   const std::shared_ptr<const LabelModel> base_;
   std::deque<std::shared_ptr<const DriveScene>> scenes_;
   std::vector<std::vector<ShownCorrection>> corrections_;
-  bool is_training_ = false, is_outdated_ = false;  // by corrections since the training began
+  bool is_training_ = false, is_outdated_ = false;  // by corrections made since the training began
   std::thread thread_;
   std::atomic<double> progress_{0.0};
   std::atomic<bool> is_stopped_{false}, is_done_{false};
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards all members below
   std::optional<LabelModel> taught_;
   std::string fault_;
 };

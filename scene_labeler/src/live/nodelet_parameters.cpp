@@ -9,7 +9,7 @@ using urban_nav_core::Table;
 
 NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
 
-// clang-format would give each of the columns a line.
+// clang-format would put each column on its own line.
 // clang-format off
 const Table<NodeletParameters>& nodeletTable() {
   using P = NodeletParameters;
@@ -24,7 +24,7 @@ const Table<NodeletParameters>& nodeletTable() {
            "Image topics are sensor_msgs/CompressedImage; /compressed is appended to their names.",
            "docs/architecture.md"},
           {"queue_size", &P::queue_size, "messages", 4000, 2, 1000000, {},
-           "Inputs that may wait; beyond that the oldest is dropped and counted.", "docs/architecture.md"},
+           "Largest number of waiting inputs; beyond it the oldest is dropped and counted.", "docs/architecture.md"},
       });
   return rows;
 }

@@ -7,7 +7,7 @@
 
 namespace scene_labeler {
 
-/// Parameters of the nodelet alone, one member per row of nodeletTable().
+/// Parameters of the nodelet, one member per row of nodeletTable().
 struct NodeletParameters {
   std::string base_frame, odom_frame;
   bool compressed;

@@ -11,7 +11,7 @@ namespace scene_labeler {
 namespace {
 
 constexpr double kPriorWeight = 20.0;  // samples: a class with fewer held-out samples keeps a bias near 0
-constexpr double kNoScore = -1e3;      // of a class that no held-out sample has: its frequency is unknown
+constexpr double kNoScore = -1e3;      // of a class without held-out samples: its frequency is unknown
 constexpr double kLeastScale = 0.05, kMostScale = 5.0;
 constexpr int kNewtonSteps = 40;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene_labeler/model/label_model.hpp"
 
-// The file becomes part of the library: a model that is there from the first start, wherever the library is installed.
+// The model file is embedded in the library, so that a model is available wherever the library is installed.
 __asm__(
     ".pushsection .rodata\n"
     ".balign 16\n"

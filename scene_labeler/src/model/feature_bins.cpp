@@ -58,7 +58,7 @@ void FeatureBins::archive(urban_nav_core::Archive& archive) {
   bool is_sound = edges_.size() <= 255;
   for (const std::vector<float>& edges : edges_)
     is_sound = is_sound && edges.size() <= kMostEdges && std::is_sorted(edges.begin(), edges.end());
-  archive.require(is_sound, "edges of features that are not in order");
+  archive.require(is_sound, "its feature edges do not ascend");
 }
 
 }  // namespace scene_labeler

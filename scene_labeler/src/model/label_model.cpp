@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kModelName = "model of scene_labeler";
 constexpr std::uint32_t kOldestVersion = 2;  // without samples
 constexpr std::uint32_t kModelVersion = 3;
-constexpr float kLeastShare = 1e-3F;  // of a forest's votes, before the logarithm
+constexpr float kLeastShare = 1e-3F;  // of a forest's votes, lower bound before the logarithm
 constexpr std::size_t kMostFeatures = 255;
 
 }  // namespace
@@ -51,12 +51,12 @@ std::uint32_t LabelModel::countOutside(const float* row) const {
 
 void LabelModel::archive(urban_nav_core::Archive& archive) {
   archive(kind, features, classes, bins);
-  archive.require(kind <= ClassifierKind::Boosted && features <= FeatureSet::All, "an unknown classifier");
+  archive.require(kind <= ClassifierKind::Boosted && features <= FeatureSet::All, "its classifier is unknown");
   if (archive.isReading()) {
     bool is_sound = classes.size() >= 2 && bins.columns() == featureNames(features).size();
     for (std::size_t i = 0; i < classes.size(); ++i)
       is_sound = is_sound && toIndex(classes[i]) < kClassCount && (i == 0 || classes[i - 1] < classes[i]);
-    archive.require(is_sound, "classes or features that do not exist");
+    archive.require(is_sound, "its classes or features do not exist");
   }
   if (kind == ClassifierKind::Svm) svm.archive(archive, bins.columns(), classes.size());
   else trees.archive(archive, bins.columns());
@@ -66,7 +66,7 @@ void LabelModel::archive(urban_nav_core::Archive& archive) {
                       calibration.bias.size() == classes.size() && patch_calibration.bias.size() == classes.size() &&
                       correlation >= 0.0 && correlation <= 1.0 && novelty.low_values.size() == bins.columns() &&
                       novelty.high_values.size() == bins.columns(),
-                  "parts of different sizes");
+                  "the sizes of its parts differ");
 }
 
 std::string printModel(LabelModel model) {

@@ -17,7 +17,7 @@ void ModelSamples::archive(urban_nav_core::Archive& archive, std::size_t columns
   for (const std::uint8_t weight : weights) is_sound = is_sound && weight > 0;
   for (const std::uint16_t place : places) is_sound = is_sound && place < folds.size();
   for (const float frequency : frequencies) is_sound = is_sound && frequency >= 0.0F;
-  archive.require(is_sound, "training samples that do not fit the model");
+  archive.require(is_sound, "its training samples do not match the model");
 }
 
 }  // namespace scene_labeler

@@ -12,8 +12,8 @@ namespace scene_labeler {
 namespace {
 
 constexpr std::size_t kDrawnReturns = 200, kLeastJudged = 20;
-constexpr std::size_t kReferenceSamples = 300;  // whose distances give the limit
-constexpr std::size_t kLeastWithAspect = 50;    // with an aspect, to judge by it
+constexpr std::size_t kReferenceSamples = 300;  // whose distances determine the limit
+constexpr std::size_t kLeastWithAspect = 50;    // samples with such features that are required
 constexpr double kReferenceShare = 0.95;
 constexpr double kUsualShare = 0.1, kNewPlaceShare = 0.3;
 constexpr double kMostDoubt = 0.5;  // scene_labeler/bench/other_worlds.py
@@ -22,7 +22,7 @@ bool endsWith(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
 
-/// All features of an image that windows or histograms have; of two windows those of the wider one.
+/// Returns the columns of image features in windows or histograms; of two windows those of the wider one.
 std::vector<std::size_t> lookColumns(FeatureSet set) {
   const std::vector<std::string>& names = featureNames(set);
   std::vector<std::size_t> columns;
@@ -31,7 +31,7 @@ std::vector<std::size_t> lookColumns(FeatureSet set) {
   return columns;
 }
 
-/// Shape in the largest cubes and heights; reflectance depends on the device.
+/// Returns the columns of shape in the largest cubes and of heights; reflectance depends on the device.
 std::vector<std::size_t> shapeColumns(FeatureSet set) {
   const std::vector<std::string>& names = featureNames(set);
   std::vector<std::size_t> columns;
@@ -121,8 +121,8 @@ bool isNewPlace(double share_unlike) { return 2.0 * share_unlike > kUsualShare +
 std::string newPlaceWarning(std::size_t new_place_frames, std::size_t frames) {
   if (new_place_frames == 0 || 4 * new_place_frames < frames) return "";
   return std::to_string(new_place_frames) + " of " + std::to_string(frames) +
-         " frames show a kind of place that the model was not trained in: its answers there are unsure. "
-         "Corrections teach it (labels train --add)";
+         " frames show a kind of place that is not in the training data: labels there are unsure. Train the model with "
+         "corrections (labels train --add)";
 }
 
 void doubtKinds(double share_unlike, const std::vector<SceneClass>& classes, float* probabilities) {

@@ -13,7 +13,7 @@ constexpr std::size_t kMomentCount = 8;  // two groups, mean and deviation of tw
 
 double logSigmoid(double x) { return x < -30.0 ? x : -std::log1p(std::exp(-x)); }
 
-/// Log density of height over ground and normal; a missing one does not decide.
+/// Returns the log density of height above ground and normal; a missing value is neutral.
 double logDensity(const float* row, const std::vector<std::uint8_t>& columns, const float* moments) {
   double sum = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -67,7 +67,7 @@ void SvmBank::archive(urban_nav_core::Archive& archive, std::size_t features, st
   for (const KernelMachine& machine : machines)
     is_sound = is_sound && machine.vectors.size() == machine.weights.size() * features;
   for (std::size_t i = 1; is_sound && i < kMomentCount; i += 2) is_sound = ground_moments[i] > 0.0F;
-  archive.require(is_sound, "machines that do not fit features and classes");
+  archive.require(is_sound, "its machines do not match features and classes");
 }
 
 }  // namespace scene_labeler

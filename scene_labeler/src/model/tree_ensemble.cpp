@@ -46,7 +46,7 @@ void LabelTree::archive(urban_nav_core::Archive& archive) {
   std::vector<std::uint8_t> bytes;
   for (const Node& node : nodes) packNode(node, bytes);
   archive(bytes, leaves);
-  archive.require(bytes.size() % kNodeBytes == 0 && bytes.size() / kNodeBytes <= kMostNodes, "a part of a node");
+  archive.require(bytes.size() % kNodeBytes == 0 && bytes.size() / kNodeBytes <= kMostNodes, "a node is truncated");
   if (!archive.isReading()) return;
   nodes.clear();
   for (std::size_t at = 0; at < bytes.size(); at += kNodeBytes) nodes.push_back(unpackNode(bytes.data() + at));
@@ -63,16 +63,16 @@ void TreeEnsemble::evaluate(const std::uint8_t* codes, float* scores) const {
 
 void TreeEnsemble::archive(urban_nav_core::Archive& archive, std::size_t features) {
   archive(base, trees);
-  archive.require(base.size() <= kClassCount && trees.size() <= kMostTrees, "too many classes or trees");
+  archive.require(base.size() <= kClassCount && trees.size() <= kMostTrees, "it has too many classes or trees");
   if (!archive.isReading()) return;
   for (const LabelTree& tree : trees) {
     const std::size_t leaves = base.empty() ? 0 : tree.leaves.size() / base.size();
-    archive.require(leaves > 0 && leaves * base.size() == tree.leaves.size(), "leaves without a value for each class");
+    archive.require(leaves > 0 && leaves * base.size() == tree.leaves.size(), "its leaves lack a value per class");
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
       const LabelTree::Node& node = tree.nodes[i];
       archive.require(node.feature < features && isSoundChild(node.left, i, tree.nodes.size(), leaves) &&
                           isSoundChild(node.right, i, tree.nodes.size(), leaves),
-                      "a node whose feature or child does not exist");
+                      "a node has a feature or child that does not exist");
     }
   }
 }

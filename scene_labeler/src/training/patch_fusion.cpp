@@ -11,7 +11,7 @@ namespace scene_labeler {
 namespace {
 
 struct PatchSums {
-  std::vector<double> sums;  // patch by patch, one for each class
+  std::vector<double> sums;  // per patch and class
   std::vector<std::size_t> counts;
 };
 

@@ -11,7 +11,7 @@ struct HeldOutPatches {
   std::vector<std::uint32_t> patches;  ///< one per return; no_patch for none
 };
 
-/// Measures the correlation of the errors within patches, and calibrates the fused scores, by the likelihood of the
+/// Estimates the correlation of errors within patches, and calibrates the fused scores, by the likelihood of the
 /// returns' true classes.
 void fitPatchFusion(const HeldOutPatches& held_out, LabelModel& model);
 

@@ -11,9 +11,9 @@ namespace scene_labeler {
 namespace {
 
 constexpr int kMostIterations = 20000;
-constexpr std::size_t kMostPerClass = 600;  // bounds the support vectors, and with them the time of a frame
+constexpr std::size_t kMostPerClass = 600;  // limits the number of support vectors, and hence the time per frame
 
-/// Mean and deviation of a column over the samples that `take` accepts.
+/// Returns mean and deviation of a column over the samples that `take` accepts.
 template <typename Take>
 std::pair<float, float> momentsWhere(const ValueSamples& samples, std::size_t column, const Take& take) {
   double sum = 0.0, square = 0.0, count = 0.0;
@@ -40,7 +40,7 @@ cv::Mat scaleValues(const ValueSamples& samples, const SvmBank& bank) {
   return scaled;
 }
 
-/// One class against the others of its group.
+/// Trains one class against the others of its group.
 KernelMachine trainMachine(const ValueSamples& samples, const cv::Mat& scaled, std::size_t of_class,
                            const SvmSettings& settings) {
   cv::Mat rows, answers;
@@ -73,7 +73,7 @@ KernelMachine trainMachine(const ValueSamples& samples, const cv::Mat& scaled, s
     machine.vectors.insert(machine.vectors.end(), vector.begin<float>(), vector.end<float>());
     machine.weights.push_back(static_cast<float>(alphas.at<double>(i)));
   }
-  // The sign of OpenCV's decision function is that of the class with the smaller label: turned to the class itself.
+  // OpenCV's decision function is positive for the class with the smaller label: flip it for this class.
   for (float& weight : machine.weights) weight = -weight;
   machine.rho = -machine.rho;
   return machine;

@@ -10,8 +10,8 @@ struct ValueSamples {
   std::size_t features = 0, classes = 0;
   std::vector<float> values;
   std::vector<std::uint8_t> labels;
-  std::vector<std::uint8_t> is_ground;       ///< of each class
-  std::vector<std::uint8_t> ground_columns;  ///< height over ground, vertical part of the normal
+  std::vector<std::uint8_t> is_ground;       ///< per class
+  std::vector<std::uint8_t> ground_columns;  ///< height above ground, vertical component of the normal
 };
 
 struct SvmSettings {

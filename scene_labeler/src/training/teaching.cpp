@@ -10,10 +10,10 @@
 namespace scene_labeler {
 namespace {
 
-/// Of a superpixel in one frame: large ones do not outweigh all other samples.
+/// Weights of a superpixel in one frame: large ones must not outweigh all other samples.
 constexpr float kPatchWeight = 50.0F, kKnownPatchWeight = 20.0F;  // the latter where most answers are right
 
-/// Whether a scene shows a kind of place that the model was not trained in: most of what nobody corrected may be wrong.
+/// Returns whether a scene shows a kind of place without training data, where most uncorrected answers may be wrong.
 bool showsNewPlace(const LabelModel& model, const Scene& scene, const FeatureTable& table) {
   std::vector<std::uint8_t> is_asked(scene.points.size(), 0);
   for (std::size_t i = 0; i < is_asked.size(); ++i)
@@ -21,7 +21,7 @@ bool showsNewPlace(const LabelModel& model, const Scene& scene, const FeatureTab
   return isNewPlace(model.place_novelty.shareUnlike(model.bins, table, is_asked));
 }
 
-constexpr std::size_t kMostAnchors = 300;  // of a scene
+constexpr std::size_t kMostAnchors = 300;  // per scene
 
 SceneClass findAnswer(const LabelModel& model, const float* row) {
   std::vector<float> logs(model.classes.size());
@@ -29,7 +29,7 @@ SceneClass findAnswer(const LabelModel& model, const float* row) {
   return model.classes[static_cast<std::size_t>(std::max_element(logs.begin(), logs.end()) - logs.begin())];
 }
 
-/// Adds returns whose answer is none of those that were corrected, the rows from `first` on.
+/// Adds returns whose answer is not among the corrected classes; rows from `first` on.
 void addAnchors(const LabelModel& model, const Scene& scene, const FeatureTable& table, std::size_t first,
                 FoldRows& rows) {
   std::vector<std::size_t> asked;
@@ -91,7 +91,7 @@ CorrectionCount addCorrections(const LabelModel& model, const Scene& scene, std:
   }
   if (count.corrected == 0) return count;
   SamplingLimits limits;
-  limits.held_out = 0;  // wrong answers alone say nothing of probabilities
+  limits.held_out = 0;  // wrong answers only are not representative for calibration
   std::vector<TrainingFold> made;
   addScene({fold, measureSceneFeatures(model, scene), labels, std::vector<std::uint32_t>(labels.size(), kNoPatch)},
            limits, made);

@@ -17,11 +17,11 @@ namespace {
 
 constexpr std::size_t kMostFolds = 5;
 constexpr std::size_t kAddedTrees = 60;
-constexpr float kLeastNewScore = -7.0F;  // log: of a class that the base does not know, before trees are added
-constexpr float kLeastSamples = 10.0F;   // sum of weights: a class with less is not learnt
+constexpr float kLeastNewScore = -7.0F;  // log score of a class unknown to the base, before trees are added
+constexpr float kLeastSamples = 10.0F;   // sum of weights: a class with less is not trained
 constexpr std::size_t kMostModelBytes = 980'000, kLeastSampleBytes = 200'000, kMostSampleBytes = 840'000;
 
-/// Settings that cross-validation tries.
+/// Settings tried by cross-validation.
 struct TrialSetting {
   TreeSettings trees;
   SvmSettings svm;
@@ -51,7 +51,7 @@ std::vector<TrialSetting> makeTrials(ClassifierKind kind) {
   return trials;
 }
 
-/// Samples of all folds, each with the group of folds that cross-validation leaves out together.
+/// Samples of all folds, each with the group of folds that cross-validation holds out together.
 struct SamplePool {
   std::size_t columns = 0;
   std::vector<SceneClass> classes;
@@ -59,16 +59,16 @@ struct SamplePool {
   std::vector<std::uint8_t> labels;
   std::vector<float> weights;
   std::vector<std::size_t> groups;
-  std::vector<std::uint16_t> folds;  // place among the folds
+  std::vector<std::uint16_t> folds;  // index among the folds
 };
 
-constexpr std::size_t kNoGroup = static_cast<std::size_t>(-1);  // leaves out nothing
+constexpr std::size_t kNoGroup = static_cast<std::size_t>(-1);  // holds out nothing
 
 std::uint8_t positionIn(const std::vector<SceneClass>& classes, SceneClass wanted) {
   return static_cast<std::uint8_t>(std::find(classes.begin(), classes.end(), wanted) - classes.begin());
 }
 
-/// Makes walls of any kind one class if some fold does not distinguish the kinds.
+/// Merges all kinds of wall into one class if some fold does not distinguish them.
 void foldWalls(std::vector<TrainingFold>& folds) {
   bool has_wall = false;
   for (const TrainingFold& fold : folds)
@@ -107,7 +107,7 @@ SamplePool makePool(const std::vector<TrainingFold>& folds, const TrainingOption
     for (std::size_t i = 0; i < rows.labels.size(); ++i) {
       const std::size_t of_class = toIndex(rows.labels[i]), total = totals[of_class], number = seen[of_class]++;
       const std::size_t wanted = std::min(total, options.samples_per_class);
-      if ((number + 1) * wanted / total == number * wanted / total) continue;  // evenly thinned
+      if ((number + 1) * wanted / total == number * wanted / total) continue;  // evenly subsampled
       const std::uint8_t label = positionIn(pool.classes, rows.labels[i]);
       if (label >= pool.classes.size()) continue;
       pool.values.insert(pool.values.end(), rows.values.begin() + static_cast<std::ptrdiff_t>(i * pool.columns),
@@ -121,7 +121,7 @@ SamplePool makePool(const std::vector<TrainingFold>& folds, const TrainingOption
   return pool;
 }
 
-/// Every class has the same weight, so that rare ones are learnt; calibration puts the frequencies back.
+/// Gives every class the same weight, so that rare ones are learnt; calibration restores the frequencies.
 std::vector<float> balancedWeights(const std::vector<std::uint8_t>& labels, std::vector<float> weights,
                                    std::size_t classes) {
   std::vector<double> totals(classes, 0.0);
@@ -146,7 +146,7 @@ CodedSamples codeSamples(const SamplePool& pool, std::size_t left_out, const Fea
       coded.codes.push_back(bins.code(column, pool.values[i * pool.columns + column]));
     coded.labels.push_back(pool.labels[i]);
     coded.weights.push_back(pool.weights[i]);
-    coded.is_anchor.push_back(pool.weights[i] > 1.0F ? 0 : 1);  // corrections have more
+    coded.is_anchor.push_back(pool.weights[i] > 1.0F ? 0 : 1);  // corrections have a larger weight
   }
   coded.weights = balancedWeights(coded.labels, coded.weights, coded.classes);
   return coded;
@@ -246,7 +246,7 @@ NoveltyRanges measureRanges(const SamplePool& pool) {
   return ranges;
 }
 
-/// Keeps what a later training continues from: of each class evenly thinned samples, as many as the file has room for.
+/// Returns the samples for continued training: evenly subsampled per class, as many as the file may hold.
 ModelSamples keepSamples(const SamplePool& pool, const std::vector<TrainingFold>& folds, const LabelModel& model) {
   const std::size_t classes = pool.classes.size(), used = printModel(model).size();
   const std::size_t room =
@@ -255,7 +255,7 @@ ModelSamples keepSamples(const SamplePool& pool, const std::vector<TrainingFold>
   ModelSamples kept;
   for (const TrainingFold& fold : folds) kept.folds.push_back(fold.name);
   std::vector<std::size_t> totals(classes, 0), seen(classes, 0);
-  const auto isKept = [&](std::size_t i) { return pool.weights[i] >= 1.0F; };  // an anchor is the model's own answer
+  const auto isKept = [&](std::size_t i) { return pool.weights[i] >= 1.0F; };  // anchors are the model's own answers
   for (std::size_t i = 0; i < pool.labels.size(); ++i) totals[pool.labels[i]] += isKept(i) ? 1U : 0U;
   for (std::size_t i = 0; i < pool.labels.size(); ++i) {
     if (!isKept(i)) continue;
@@ -276,7 +276,7 @@ ModelSamples keepSamples(const SamplePool& pool, const std::vector<TrainingFold>
   return kept;
 }
 
-/// Widens the ranges of features to those of the model that training continues from: its samples are coarse.
+/// Extends the ranges of features by those of the base model, whose stored samples are coarse.
 void keepRanges(const NoveltyRanges& before, NoveltyRanges& ranges) {
   for (std::size_t i = 0; i < ranges.low_values.size() && i < before.low_values.size(); ++i) {
     ranges.low_values[i] = std::min(ranges.low_values[i], before.low_values[i]);
@@ -295,7 +295,7 @@ std::vector<float> forClasses(const std::vector<float>& before, const std::vecto
   return values;
 }
 
-/// Fits the fusion of patches, or takes it from the model that training continues from where no return has a patch.
+/// Fits the fusion of patches, or takes it from the base model if no return has a patch.
 void fitOrKeepFusion(const HeldOutPatches& held_out, const LabelModel* base, LabelModel& model) {
   const bool has_patches =
       std::any_of(held_out.patches.begin(), held_out.patches.end(), [](std::uint32_t p) { return p != kNoPatch; });
@@ -305,7 +305,7 @@ void fitOrKeepFusion(const HeldOutPatches& held_out, const LabelModel* base, Lab
   model.patch_calibration.bias = forClasses(base->patch_calibration.bias, base->classes, model.classes, 0.0F);
 }
 
-/// Returns an ensemble for more classes, which it gives kLeastNewScore.
+/// Returns an ensemble extended by classes with the score kLeastNewScore.
 TreeEnsemble widenEnsemble(TreeEnsemble ensemble, const std::vector<SceneClass>& from,
                            const std::vector<SceneClass>& to) {
   ensemble.base = forClasses(ensemble.base, from, to, kLeastNewScore);
@@ -322,7 +322,7 @@ TreeEnsemble widenEnsemble(TreeEnsemble ensemble, const std::vector<SceneClass>&
   return ensemble;
 }
 
-/// Adds trees to those of the base; returns false if they cannot be added: another kind, or classes that are gone.
+/// Adds trees to those of the base. Returns false if that is impossible: another kind, or removed classes.
 bool addTrees(const SamplePool& pool, const TrainingOptions& options, LabelModel& model) {
   const LabelModel* base = options.base;
   if (!options.adds_trees || !base || base->kind != ClassifierKind::Boosted || options.kind != base->kind) return false;

@@ -17,7 +17,7 @@ void addRow(const TrainingScene& scene, std::size_t i, std::uint32_t patch, Fold
   rows.weights.push_back(1.0F);
 }
 
-/// Scatters numbers, so that patches are drawn from all over a scene.
+/// Hashes numbers, so that patches are drawn from the whole scene.
 std::uint32_t scatter(std::uint32_t number) { return number * 2654435761U; }  // Knuth 1973, 6.4
 
 std::uint32_t firstFreePatch(const FoldRows& rows) {

@@ -11,7 +11,7 @@ namespace scene_labeler {
 namespace {
 
 constexpr std::size_t kCodes = FeatureBins::kCodeCount;
-constexpr float kLeastEntry = 1e-3F;  // of a histogram, in weights: less is rounding of a difference
+constexpr float kLeastEntry = 1e-3F;  // weight in a histogram; smaller values are rounding of a difference
 
 }  // namespace
 
@@ -66,7 +66,7 @@ TreeBuilder::Split TreeBuilder::bestSplitBy(const Leaf& leaf, std::uint8_t featu
     for (std::size_t k = 0; k < width_; ++k) left[k] = missing_right ? 0.0 : static_cast<double>(entries[k]);
     for (std::size_t code = 1; code + 1 < kCodes; ++code) {
       const float* entry = entries + code * width_;
-      if (!(entry[weight] > kLeastEntry)) continue;  // as the threshold before
+      if (!(entry[weight] > kLeastEntry)) continue;  // same split as the previous threshold
       for (std::size_t k = 0; k < width_; ++k) left[k] += static_cast<double>(entry[k]);
       if (left[weight] < settings_.least_weight) continue;
       if (leaf.total[weight] - left[weight] < settings_.least_weight) break;
@@ -95,7 +95,7 @@ void TreeBuilder::divide(Leaf& leaf, Leaf& other) const {
     (goes_right ? other.samples : left).push_back(i);
   }
   leaf.samples = std::move(left);
-  // The histogram of the smaller part is counted, that of the larger one is the difference.
+  // Computes the histogram of the smaller part; that of the larger one is the difference.
   const bool counts_left = leaf.samples.size() <= other.samples.size();
   std::vector<float> counted = makeHistogram(counts_left ? leaf.samples : other.samples);
   std::vector<float> rest = std::move(leaf.histogram);

@@ -8,16 +8,17 @@
 
 namespace scene_labeler {
 
-/// Derivatives of the loss: for each sample, one first and one second derivative for each class, side by side.
+/// Derivatives of the loss: per sample, one first and one second derivative per class, interleaved.
 using Derivatives = std::vector<float>;
 
-/// Grows one tree at a time, the leaf with the largest gain first, from histograms of the derivatives over the codes.
+/// Grows one tree at a time from histograms of the derivatives over the codes, splitting the leaf with the largest gain
+/// first.
 class TreeBuilder {
  public:
   TreeBuilder(const CodedSamples& samples, const TreeSettings& settings);
 
-  /// `drawn`: samples of this tree, ascending, equal ones allowed. `draws_per_node`: features are drawn for each node,
-  /// not for the whole tree. Values of leaves are minus the Newton step, times `step`.
+  /// `drawn`: samples of this tree, ascending, may be repeated. `draws_per_node`: features are drawn for each node
+  /// instead of the whole tree. Values of leaves are minus the Newton step, times `step`.
   LabelTree build(const Derivatives& derivatives, const std::vector<std::uint32_t>& drawn, bool draws_per_node,
                   float step, std::mt19937_64& random);
 
@@ -29,7 +30,7 @@ class TreeBuilder {
   };
   struct Leaf {
     std::vector<std::uint32_t> samples;
-    std::vector<float> histogram;  // feature by feature, code by code: derivatives and the weight
+    std::vector<float> histogram;  // per feature and code: derivatives and the weight
     std::vector<double> total;
     Split split;
     std::int16_t parent = -1;
@@ -45,8 +46,8 @@ class TreeBuilder {
 
   const CodedSamples& samples_;
   const TreeSettings& settings_;
-  std::size_t width_;                  // of an entry of the histogram
-  std::vector<std::uint8_t> columns_;  // codes, feature by feature
+  std::size_t width_;                  // of a histogram entry
+  std::vector<std::uint8_t> columns_;  // codes, by feature
   const Derivatives* derivatives_ = nullptr;
   std::vector<std::uint8_t> tree_features_;
 };

@@ -11,7 +11,7 @@
 namespace scene_labeler {
 namespace {
 
-constexpr float kLargestAddedLeaf = 0.5F;  // like the largest step of Chen and Guestrin's library for rare classes
+constexpr float kLargestAddedLeaf = 0.5F;  // as the largest step for rare classes in Chen and Guestrin's library
 
 std::vector<double> weightedShares(const CodedSamples& samples) {
   std::vector<double> shares(samples.classes, 1e-6);
@@ -24,7 +24,7 @@ std::vector<double> weightedShares(const CodedSamples& samples) {
   return shares;
 }
 
-/// Writes probabilities of the classes.
+/// Computes probabilities of the classes.
 void softmax(const float* scores, std::size_t classes, float* probabilities) {
   const float highest = *std::max_element(scores, scores + classes);
   float sum = 0.0F;
@@ -32,7 +32,7 @@ void softmax(const float* scores, std::size_t classes, float* probabilities) {
   for (std::size_t k = 0; k < classes; ++k) probabilities[k] /= sum;
 }
 
-/// Returns for each sample and class the probability that is learnt: 1 of its label, or the present one of anchors.
+/// Returns the target probability of each sample and class: 1 for its label, or the present one for anchors.
 std::vector<float> learntProbabilities(const CodedSamples& samples, const std::vector<float>& scores) {
   const std::size_t classes = samples.classes;
   std::vector<float> targets(samples.size() * classes, 0.0F);
@@ -42,7 +42,7 @@ std::vector<float> learntProbabilities(const CodedSamples& samples, const std::v
   return targets;
 }
 
-/// First and second derivatives of the deviance at these scores.
+/// Computes first and second derivatives of the deviance at these scores.
 void deviance(const CodedSamples& samples, const std::vector<float>& targets, const std::vector<float>& scores,
               Derivatives& derivatives) {
   const std::size_t classes = samples.classes;
@@ -80,7 +80,7 @@ std::vector<std::uint32_t> drawWith(std::size_t count, double share, std::mt1993
 
 namespace {
 
-/// Adds trees to an ensemble. `largest_leaf`: bound of their values.
+/// Adds trees to an ensemble. `largest_leaf`: limit of their values.
 void boost(const CodedSamples& samples, const TreeSettings& settings, float largest_leaf, std::uint64_t seed,
            TreeEnsemble& ensemble) {
   std::mt19937_64 random(seed);

@@ -23,7 +23,7 @@ DriveReturn returnAt(std::size_t number, double travelled) {
   return one;
 }
 
-/// Notes which frames came with which returns.
+/// Records the frames with their returns.
 struct Notes : DriveObserver {
   std::map<double, std::pair<std::size_t, std::size_t>> seen;  // frame: first and last index
   std::map<double, Stretch> nearest;
@@ -141,7 +141,7 @@ TEST(DriveLabeler, CountsAClassImageOfAnotherSourceAsAView) {
   R_world_camera << 1, 0, 0, 0, -1, 0, 0, 0, -1;
   view.T_world_camera = Pose(Eigen::Quaterniond(R_world_camera), {4.0, 4.0, 6.0});
   view.image = cv::Mat(81, 101, CV_8UC3, cv::Scalar(90, 110, 120));
-  const auto sumFoliage = [&](const cv::Mat& classes) {  // of probabilities
+  const auto sumFoliage = [&](const cv::Mat& classes) {  // sum of probabilities
     float sum = 0.0F;
     DriveLabeler labeler(testing::trainOnYards(ClassifierKind::Boosted), parameters,
                          [&](const std::vector<DriveReturn>&, const SceneLabels& labels) {

@@ -21,14 +21,14 @@ void addRow(const std::vector<double>& probabilities, std::vector<float>& logs) 
   for (const double p : probabilities) logs.push_back(static_cast<float>(std::log(p)));
 }
 
-/// Corrects so many returns that all look like this.
+/// Corrects this many returns with equal probabilities.
 void see(int count, const std::vector<double>& probabilities, ClassFrequencies& frequencies) {
   std::vector<float> logs;
   for (int i = 0; i < count; ++i) addRow(probabilities, logs);
   frequencies.correct(logs);
 }
 
-/// The probabilities of one return, corrected.
+/// Returns the corrected probabilities of one return.
 std::vector<float> corrected(const std::vector<double>& probabilities, ClassFrequencies& frequencies) {
   std::vector<float> row;
   addRow(probabilities, row);
@@ -37,8 +37,8 @@ std::vector<float> corrected(const std::vector<double>& probabilities, ClassFreq
   return row;
 }
 
-/// Log probabilities of returns whose classes have these frequencies, by a sensor of normally distributed readings, as
-/// a model would state them that was trained with other frequencies; and the classes.
+/// Log probabilities of returns whose classes have these frequencies, from a sensor with normally distributed readings,
+/// by a model trained with other frequencies; and the classes.
 std::pair<std::vector<float>, std::vector<std::size_t>> readings(const std::vector<double>& here,
                                                                  const std::vector<double>& trained, std::size_t count,
                                                                  double spread) {

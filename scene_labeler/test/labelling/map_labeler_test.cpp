@@ -11,16 +11,16 @@
 namespace scene_labeler {
 namespace {
 
-/// Labels of points, and what was noted on the way.
+/// Labels of points, with recorded callbacks.
 struct LabelledYard {
   std::vector<PointLabel> labels;
-  std::vector<int> times;                         // that each point got a label
-  std::vector<std::size_t> shown;                 // by each view
+  std::vector<int> times;                         // number of labels per point
+  std::vector<std::size_t> shown;                 // per view
   std::size_t upside_down = 0, class_images = 0;  // views
   std::size_t most_held = 0;
 };
 
-/// Labels points that come in order of y, a metre at a time; `at_once`: all before any is labelled.
+/// Labels points in order of y, a metre at a time; `at_once`: adds all before any is labelled.
 LabelledYard labelPoints(std::vector<Eigen::Vector3f> points, std::vector<PlacedView> views, const cv::Mat& image,
                          bool at_once = false, const LabelModel& model = testing::trainOnYards(ClassifierKind::Boosted),
                          const cv::Mat& classes = {}) {
@@ -59,7 +59,7 @@ LabelledYard labelPoints(std::vector<Eigen::Vector3f> points, std::vector<Placed
   return made;
 }
 
-/// A camera that looks along x, at the wall.
+/// Camera that faces the wall along x.
 PlacedView viewAt(double x, double y) {
   PlacedView view;
   view.camera.pinhole = {100.0, 100.0, 50.0, 40.0, 101, 81};

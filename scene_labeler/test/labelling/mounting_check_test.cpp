@@ -28,7 +28,7 @@ TEST(MountingCheck, FindsACameraThatIsUpsideDown) {
   EXPECT_FALSE(without.isUpsideDown());
 }
 
-// As shape does where poses are not exact: lawn and path differ in it by little.
+// Shape with inaccurate poses: lawn and path hardly differ in it.
 TEST(MountingCheck, IsNotMisledWhereShapeTakesPavingForLawn) {
   const testing::Yard yard = testing::makePicturedYard(9);
   LabelModel model = testing::makePictureModel(measureFeatures(yard.scene, FeatureSet::All));

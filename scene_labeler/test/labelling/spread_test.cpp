@@ -8,7 +8,7 @@
 namespace scene_labeler {
 namespace {
 
-/// Two surfaces 20 m apart, of ten shown points each: class 0 here, class 1 there; one hidden point in each and one far
+/// Two surfaces 20 m apart, of ten visible points each with the classes 0 and 1; one hidden point in each and one far
 /// from both.
 TEST(Spread, GivesHiddenPointsTheClassOfTheirSurroundings) {
   std::vector<Eigen::Vector3f> points;

@@ -89,7 +89,7 @@ TEST_F(LiveLabelsOfAWall, EachRoundOfARecordingHasTheSameLabels) {
   };
   const std::size_t first = drive();
   ASSERT_GT(first, 0U);
-  // Scans of the next round come before its odometry, and those of the round before after it.
+  // Scans of the next round arrive before its odometry, and those of the previous round after it.
   addScan(0);
   EXPECT_EQ(labelled_, first);
   const std::size_t second = drive();

@@ -55,7 +55,7 @@ struct Shares {
   double unsure = 0.0, right = 0.0;
 };
 
-/// Of the returns of some class that the image shows.
+/// Returns of some class that are visible in the image.
 Shares measureShares(SceneClass wanted, const testing::Yard& yard, const SceneLabels& labels) {
   double count = 0.0;
   Shares shares;

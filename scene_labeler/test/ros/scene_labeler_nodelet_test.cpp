@@ -36,7 +36,7 @@ constexpr StampNs kStreetStart = 1'225'719'872'000'000'000;
 constexpr int kStreetFrames = 160;  // of 50 ms and 5 cm
 constexpr int kColumns = 96, kRows = 128;
 
-/// A robot that drives along x beside a wall at y = 4, with a laser and a camera that look to the left.
+/// Robot that drives along x beside a wall at y = 4, with a laser and a camera facing left.
 class StreetRobot : public urban_nav_ros::testing::Listener {
  public:
   StreetRobot() : Listener("scene_labeler") {
@@ -46,7 +46,7 @@ class StreetRobot : public urban_nav_ros::testing::Listener {
   }
   static StampNs toStamp(int frame) { return kStreetStart + frame * 50'000'000LL; }
 
-  /// Returns once the nodelet has received it, as what follows: scans and images come on other connections.
+  /// Returns once the nodelet has received it, as below: scans and images have separate connections.
   void placeSensors() {
     Eigen::Matrix3d R_laser, R_camera;
     R_laser << 0, 0, 1, 1, 0, 0, 0, 1, 0;
@@ -105,7 +105,7 @@ class StreetRobot : public urban_nav_ros::testing::Listener {
     EXPECT_TRUE(ros::service::call("scene_labeler/correct", service));
     return service.response;
   }
-  /// Waits until the answer to a correction has `part` in it: a click is handled by another thread than a service.
+  /// Waits until the response to a correction contains `part`: clicks and services are handled by different threads.
   static bool answers(const std::string& part) {
     return until([&part] { return correct("dirt_path").message.find(part) != std::string::npos; });
   }

@@ -11,7 +11,7 @@
 
 namespace scene_labeler::testing {
 
-/// A yard in an image that looks along x: grey ground below the horizon, an orange wall with bushes above it.
+/// Yard in an image along x: grey ground below the horizon, an orange wall with bushes above it.
 inline Yard makePicturedYard(unsigned seed) {
   Yard yard = makeYard(seed);
   yard.scene.view.image = cv::Mat(240, 320, CV_8UC3, cv::Scalar(30, 90, 180));
@@ -27,7 +27,7 @@ inline std::uint8_t columnOf(const std::string& name) {
   return static_cast<std::uint8_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-/// Knows paving and walls: by height, and by colour where there is an image: paving is grey, walls are red.
+/// Model of paving and walls: by height, and by colour if there is an image: paving is grey, walls are red.
 inline LabelModel makePictureModel(const FeatureTable& table) {
   LabelModel model;
   model.classes = {SceneClass::Paved, SceneClass::Wall};

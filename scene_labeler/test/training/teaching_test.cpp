@@ -13,7 +13,7 @@
 namespace scene_labeler {
 namespace {
 
-/// A yard with level roofs of vehicles, which no training yard has.
+/// Yard with level vehicle roofs, which no training yard has.
 testing::Yard makeYardWithRoofs(unsigned seed) {
   testing::Yard yard = testing::makeYard(seed);
   std::mt19937 random(seed);
@@ -35,7 +35,7 @@ double f1(const LabelModel& model, const testing::Yard& yard, SceneClass wanted)
   return sum > 0.0 ? 2.0 * hits / sum : 1.0;
 }
 
-/// Corrects what the model gets wrong in a yard, and trains again.
+/// Corrects the wrong answers of the model in a yard, and trains again.
 LabelModel teach(const LabelModel& model, const testing::Yard& yard) {
   std::vector<TrainingFold> folds = restoreFolds(model);
   addCorrections(model, yard.scene, yard.labels, 12, "corrections", folds);

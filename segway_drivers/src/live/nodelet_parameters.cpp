@@ -26,8 +26,8 @@ const Table<NodeletParameters>& nodeletTable() {
           {"publish_tf", &P::publish_tf, "", false, false, true, {},
            "Whether the base publishes its odometry on /tf; visual odometry does so by default.", "REP-105"},
           {"session_begin", &P::session_begin, "", "", false, false, {},
-           "File in which the simulated devices of a launch agree on the begin of their session, new for each launch; "
-           "empty: a camera's session begins when it is opened.", ""},
+           "File by which the simulated devices of a launch begin their sessions together, new for each launch; "
+           "empty: the session of a camera begins when it is opened.", ""},
           {"session_held", &P::session_held, "", false, false, true, {},
            "Whether a simulated camera is absent before another process has written the begin, ns of the steady "
            "clock, to that file.", ""},

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one patch costs: coarse comparison, warp, alignment in the same and in a larger view, alignment across with
-// slopes.
+// Time per patch: coarse comparison, warp, alignment in the same and in a larger view, stereo alignment with slopes.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

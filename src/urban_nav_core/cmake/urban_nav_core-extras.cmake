@@ -1,43 +1,42 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# How every package of the suite is built. Loaded by find_package(urban_nav_core), from the devel space and the install
-# space alike. Nothing here touches a target, a flag or an include path that is not ours: the suite may share a
-# workspace.
+# Build functions of all packages of the suite. Loaded by find_package(urban_nav_core) from the devel space or the
+# install space. Targets, flags and include paths of other packages in the workspace are not modified.
 #catkin_lint: ignore global_var_collision duplicate_find shadowed_find
 include_guard(DIRECTORY)
 include(CheckCXXCompilerFlag)
 
 option(URBAN_NAV_WERROR "Warnings are errors" OFF)
 option(URBAN_NAV_SANITIZE "Address and undefined-behaviour sanitizer" OFF)
-option(URBAN_NAV_CORES_ONLY "Build the ROS-free cores alone" OFF)
+option(URBAN_NAV_CORES_ONLY "Build only the libraries that do not depend on ROS" OFF)
 option(URBAN_NAV_BENCH "Configure the programs in bench/ (target urban_nav_benches builds them)" OFF)
-option(URBAN_NAV_PRECOMPILE "Headers that most files include are compiled once for each target" OFF)
-option(URBAN_NAV_UNITY "Sources are compiled in batches, which parses what they include once for each batch" OFF)
-option(URBAN_NAV_UNITY_TESTS "As URBAN_NAV_UNITY, for tests and what only they and benches use" OFF)
+option(URBAN_NAV_PRECOMPILE "Precompile the most common headers, once per target" OFF)
+option(URBAN_NAV_UNITY "Compile sources in batches, which parses common headers once per batch" OFF)
+option(URBAN_NAV_UNITY_TESTS "URBAN_NAV_UNITY for tests, and for libraries used only by tests and benches" OFF)
 set(URBAN_NAV_UNITY_BATCH 16 CACHE STRING "Sources in a batch")
-option(URBAN_NAV_SANITIZED_READERS "Test what reads foreign bytes under the sanitizers, beside the tests without them" OFF)
-set(URBAN_NAV_TEST_SHARDS 1 CACHE STRING "Processes that share the cases of one gtest binary")
+option(URBAN_NAV_SANITIZED_READERS "Also run the tests of file and message readers under the sanitizers" OFF)
+set(URBAN_NAV_TEST_SHARDS 1 CACHE STRING "Number of processes among which the cases of a gtest binary are divided")
 set(URBAN_NAV_TEST_ROOMS "" CACHE STRING "Folders of test/ to compile into the tests; empty: all")
 
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(Threads REQUIRED)
 
-# Release flags where the workspace sets none; a stage without optimisation is fifty times slower than its README says.
+# Release flags unless the workspace sets a build type: a stage without optimisation is fifty times slower.
 set(urban_nav_compile_options $<$<CONFIG:>:-O2> $<$<CONFIG:>:-DNDEBUG> -Wall -Wextra -Wshadow -Wconversion)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   check_cxx_compiler_flag(-march=x86-64-v2 URBAN_NAV_HAS_X86_64_V2)
   if(URBAN_NAV_HAS_X86_64_V2)
     list(APPEND urban_nav_compile_options -march=x86-64-v2)
-  else()  # GCC 9 has the instructions, but no name for the set
+  else()  # GCC 9 has no name for this set of instructions
     list(APPEND urban_nav_compile_options -mcx16 -mpopcnt -msahf -mssse3 -msse4.1 -msse4.2)
   endif()
 endif()
-# The first two warn of a name at the top of a file, of no account where several files are one. Inlining across files makes GCC 12 see
-# overflows in std::vector that are none.
+# The first two warn about names at file scope, which are irrelevant in unity builds. With inlining across files GCC 12
+# reports false overflows in std::vector.
 set(urban_nav_unity_options -Wno-shadow -Wshadow=local -Wno-subobject-linkage -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
 if(URBAN_NAV_UNITY)
   list(APPEND urban_nav_compile_options ${urban_nav_unity_options})
 endif()
-# Debian's hardening, where the optimisation that it needs is on. Position-independent code and what is asked of the linker:
+# Debian's hardening flags, if the required optimisation is on. Position-independent code and linker flags are set by
 # urban_nav_target.
 list(APPEND urban_nav_compile_options -fstack-protector-strong -Wformat -Werror=format-security -U_FORTIFY_SOURCE
   $<$<NOT:$<CONFIG:Debug>>:-D_FORTIFY_SOURCE=2>)
@@ -47,17 +46,16 @@ if(URBAN_NAV_WERROR)
   list(APPEND urban_nav_compile_options -Werror)
 endif()
 set(urban_nav_link_options "")
-# The reduced set: the checks left out take two thirds of the compile time of an Eigen file.
+# Reduced set of checks: the omitted ones take two thirds of the compile time of an Eigen file.
 set(urban_nav_sanitizers -fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,pointer-overflow,vptr
     -fno-sanitize-recover=all -O1 -g1 -UNDEBUG -U_FORTIFY_SOURCE -fno-omit-frame-pointer
-    -Wno-maybe-uninitialized)  # which GCC sees in Eigen where the sanitizers are
+    -Wno-maybe-uninitialized)  # false positives of GCC in Eigen with sanitizers
 if(URBAN_NAV_SANITIZE)
   list(APPEND urban_nav_compile_options ${urban_nav_sanitizers})
   list(APPEND urban_nav_link_options -fsanitize=address,undefined)
 endif()
 
-# urban_nav_precompile(TARGET HEADER...): these headers compiled once for the target, if it has the files that this
-# takes to be quicker.
+# urban_nav_precompile(TARGET HEADER...): precompiles these headers for the target, if it has enough files to benefit.
 function(urban_nav_precompile target)
   get_target_property(sources ${target} SOURCES)
   list(LENGTH sources files)
@@ -66,14 +64,14 @@ function(urban_nav_precompile target)
   endif()
 endfunction()
 
-# urban_nav_quick(TARGET): a target of tests is compiled with -O1, a fifth quicker than with -O2: what takes time in a test is compiled in
-# the library that it tests. With -O1 GCC sees uninitialised values in std::optional that are initialised.
+# urban_nav_quick(TARGET): compiles a test target with -O1, which is a fifth faster than -O2; code under test is in the
+# library. With -O1 GCC reports false uninitialised values in std::optional.
 function(urban_nav_quick target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:>:-O1> -Wno-maybe-uninitialized)
 endfunction()
 
-# urban_nav_unite(TARGET): a target of tests is compiled in batches where URBAN_NAV_UNITY_TESTS says so. What is installed has each of its
-# sources compiled alone, with all warnings.
+# urban_nav_unite(TARGET): compiles a test target in batches if URBAN_NAV_UNITY_TESTS is set. Sources of installed
+# targets are compiled separately, with all warnings.
 function(urban_nav_unite target)
   if(URBAN_NAV_UNITY_TESTS)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
@@ -81,19 +79,19 @@ function(urban_nav_unite target)
   endif()
 endfunction()
 
-# urban_nav_target(TARGET [ROS]): properties of all our targets. Without the word ROS a target sees urban_nav_core,
-# those of the other ROS-free packages of src/ that the package has found, and no header of ROS: the cores stay free of
-# it.
+# urban_nav_target(TARGET [ROS]): sets the properties of a target of the suite. Without ROS the target has the include
+# paths of urban_nav_core and of the other ROS-independent packages of src/ that the package has found, but not those of
+# ROS, which keeps the cores independent of it.
 function(urban_nav_target target)
   cmake_parse_arguments(arg "ROS" "" "" ${ARGN})
   set_target_properties(${target} PROPERTIES
     CXX_STANDARD 17 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON
-    # The same in the build space: the list that CMake would exchange at the installation ends with a colon, and libraries
-    # would be taken from the current folder.
+    # Same RPATH in the build space: the list that CMake would replace at installation ends with a colon, which would add
+    # the current folder.
     INSTALL_RPATH "$ORIGIN;$ORIGIN/..;$ORIGIN/../lib" BUILD_WITH_INSTALL_RPATH ON
     UNITY_BUILD ${URBAN_NAV_UNITY} UNITY_BUILD_BATCH_SIZE ${URBAN_NAV_UNITY_BATCH})
   target_compile_options(${target} PRIVATE ${urban_nav_compile_options})
-  # Functions of other libraries are found at the start, and the table of their addresses is read-only from then on.
+  # Symbols are resolved at program start, after which the relocation table is read-only.
   target_link_options(${target} PRIVATE -Wl,-z,relro -Wl,-z,now)
   if(EXISTS ${PROJECT_SOURCE_DIR}/include)
     target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
@@ -109,7 +107,7 @@ function(urban_nav_target target)
       add_dependencies(${target} ${catkin_EXPORTED_TARGETS})
     endif()
   else()
-    # The ROS-free packages of src/ that this package has found.
+    # ROS-independent packages of src/ that this package has found.
     foreach(package urban_nav_core urban_nav_store urban_nav_registration urban_nav_live)
       target_include_directories(${target} SYSTEM PRIVATE ${${package}_INCLUDE_DIRS})
       target_link_libraries(${target} ${${package}_LIBRARIES})
@@ -128,8 +126,8 @@ macro(urban_nav_pass_ros target)
   endif()
 endmacro()
 
-# urban_nav_library(TARGET SOURCE... [STATIC] [ROS]): a library of this package, installed. Further libraries:
-# target_link_libraries.
+# urban_nav_library(TARGET SOURCE... [STATIC] [ROS]): adds an installed library of this package. Link further libraries
+# by target_link_libraries.
 function(urban_nav_library target)
   cmake_parse_arguments(arg "STATIC;ROS" "" "" ${ARGN})
   if(arg_STATIC)
@@ -144,8 +142,8 @@ function(urban_nav_library target)
     RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION})
 endfunction()
 
-# urban_nav_program(TARGET SOURCE... [ON_PATH] [ROS]): a program of this package, installed. ON_PATH: also found without
-# rosrun.
+# urban_nav_program(TARGET SOURCE... [ON_PATH] [ROS]): adds an installed program of this package. ON_PATH: available
+# without rosrun.
 function(urban_nav_program target)
   cmake_parse_arguments(arg "ON_PATH;ROS" "" "" ${ARGN})
   add_executable(${target} ${arg_UNPARSED_ARGUMENTS})
@@ -159,8 +157,9 @@ function(urban_nav_program target)
   endif()
 endfunction()
 
-# urban_nav_parameters(): PACKAGE_parameters, and the target PACKAGE_documents by which it writes the texts that are
-# made from the tables of parameters: config/PACKAGE.yaml and two tables of README.md.
+# urban_nav_parameters(): adds PACKAGE_parameters, and the target PACKAGE_documents that runs it to write the documents
+# generated from parameter tables: config/PACKAGE.yaml and two tables of PARAMETERS.md if it exists,
+# otherwise of README.md.
 function(urban_nav_parameters)
   set(sources tools/${PROJECT_NAME}_parameters.cpp)
   if(EXISTS ${PROJECT_SOURCE_DIR}/nodelet/nodelet_parameters.cpp)
@@ -172,8 +171,8 @@ function(urban_nav_parameters)
   add_custom_target(${PROJECT_NAME}_documents COMMAND ${PROJECT_NAME}_parameters --write ${PROJECT_SOURCE_DIR} VERBATIM)
 endfunction()
 
-# The library of testing/ for tests, benches and the demo: a target in one workspace, a file when built package by
-# package.
+# Library of testing/ for tests, benches and the demo: a target within one workspace, a file if packages are built
+# separately.
 #catkin_lint: ignore literal_project_name
 if(TARGET urban_nav_core_testing OR PROJECT_NAME STREQUAL "urban_nav_core")
   set(urban_nav_testing_library urban_nav_core_testing)
@@ -184,8 +183,8 @@ else()
     urban_nav_core opencv_core opencv_imgcodecs opencv_imgproc)
 endif()
 
-# urban_nav_run_gtest(TARGET TYPE): run_tests_PACKAGE_TYPE_TARGET-N run a gtest binary in the package's folder, each its
-# share of the cases. Shards share no folder for temporary files.
+# urban_nav_run_gtest(TARGET TYPE): adds run_tests_PACKAGE_TYPE_TARGET-N, which run shards of a gtest binary in the
+# package's folder. Each shard has its own folder for temporary files.
 function(urban_nav_run_gtest target type)
   get_target_property(folder ${target} RUNTIME_OUTPUT_DIRECTORY)
   math(EXPR last "${URBAN_NAV_TEST_SHARDS} - 1")
@@ -198,8 +197,8 @@ ${folder}/${target} --gtest_output=xml:${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME
   endforeach()
 endfunction()
 
-# urban_nav_gtest(TARGET TYPE SOURCE... LIBRARIES LIBRARY... [ROS]): a gtest binary of these sources, which catkin's
-# target run_tests runs.
+# urban_nav_gtest(TARGET TYPE SOURCE... LIBRARIES LIBRARY... [ROS]): adds a gtest binary of these sources to catkin's
+# target run_tests.
 function(urban_nav_gtest target type)
   cmake_parse_arguments(arg "ROS" "" "LIBRARIES" ${ARGN})
   catkin_add_executable_with_gtest(${target} ${arg_UNPARSED_ARGUMENTS} EXCLUDE_FROM_ALL)
@@ -221,8 +220,8 @@ function(urban_nav_gtest target type)
   urban_nav_run_gtest(${target} ${type})
 endfunction()
 
-# urban_nav_test(LIBRARY... [ROS] [ONLY SOURCE...]): PACKAGE-test, one gtest binary of test/**/*.cpp without test/ros,
-# linked with the libraries.
+# urban_nav_test(LIBRARY... [ROS] [ONLY SOURCE...]): adds PACKAGE-test, one gtest binary of test/**/*.cpp except
+# test/ros, linked with the libraries.
 function(urban_nav_test)
   if(NOT CATKIN_ENABLE_TESTING)
     return()
@@ -248,9 +247,9 @@ function(urban_nav_test)
   urban_nav_gtest(${PROJECT_NAME}-test gtest ${sources} LIBRARIES ${arg_UNPARSED_ARGUMENTS})
 endfunction()
 
-# urban_nav_sanitized_test(LIBRARY... ROOMS ROOM... [TESTS SOURCE...] [WITHOUT SOURCE...]): PACKAGE-sanitized-test,
-# src/ROOM, reference/ROOM and test/ROOM compiled under the sanitizers into one gtest binary; all else of the package
-# comes from the libraries, as it is. The sources of the binary go before those of the libraries.
+# urban_nav_sanitized_test(LIBRARY... ROOMS ROOM... [TESTS SOURCE...] [WITHOUT SOURCE...]): adds PACKAGE-sanitized-test,
+# a gtest binary of src/ROOM, reference/ROOM and test/ROOM compiled with sanitizers; the rest of the package is linked
+# from the regular libraries. Symbols of the binary take precedence over those of the libraries.
 function(urban_nav_sanitized_test)
   if(NOT CATKIN_ENABLE_TESTING OR NOT URBAN_NAV_SANITIZED_READERS)
     return()
@@ -265,7 +264,7 @@ function(urban_nav_sanitized_test)
   foreach(source ${arg_WITHOUT})
     list(REMOVE_ITEM sources ${PROJECT_SOURCE_DIR}/${source})
   endforeach()
-  if(TARGET urban_nav_core_testing)  # whose malloc, compiled without the sanitizers, would take the place of theirs
+  if(TARGET urban_nav_core_testing)  # its malloc, compiled without sanitizers, would replace theirs
     get_target_property(core urban_nav_core_testing SOURCE_DIR)
     list(APPEND sources ${core}/testing/allocations.cpp)
   endif()
@@ -281,9 +280,8 @@ function(urban_nav_sanitized_test)
   endif()
 endfunction()
 
-# urban_nav_nodelet(): nodelet/*.cpp becomes PACKAGE_nodelet, which is what ROS sees of the package's library;
-# test/ros/*.cpp becomes PACKAGE-rostest, which test/ros/nodelet.test runs beside it. Nothing where the cores alone are
-# built.
+# urban_nav_nodelet(): adds PACKAGE_nodelet from nodelet/*.cpp, the ROS interface of the package's library, and
+# PACKAGE-rostest from test/ros/*.cpp, which test/ros/nodelet.test runs with it. No effect if only the cores are built.
 function(urban_nav_nodelet)
   if(URBAN_NAV_CORES_ONLY)
     return()
@@ -305,8 +303,8 @@ function(urban_nav_nodelet)
   target_link_libraries(${PROJECT_NAME}-rostest ${PROJECT_NAME}_nodelet ${PROJECT_NAME} ${urban_nav_testing_library} ${GTEST_LIBRARIES})
 endfunction()
 
-# urban_nav_python_tests(): each test/FOLDER/NAME_test.py of this package, run by the python3 of the workspace. It ends
-# with rosunit.unitrun, which leaves the same XML as gtest.
+# urban_nav_python_tests(): adds each test/FOLDER/NAME_test.py of this package, run by the python3 of the workspace.
+# Tests end with rosunit.unitrun, which writes the same XML as gtest.
 function(urban_nav_python_tests)
   if(NOT CATKIN_ENABLE_TESTING)
     return()
@@ -316,13 +314,13 @@ function(urban_nav_python_tests)
     string(REGEX REPLACE "_test\\.py$" "" name ${test})
     string(REPLACE "/" "_" name ${name})
     set(results ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME}/python-${name}.xml)
-    # What rostest uses as well: catkin's own function for Python needs nose, which is no longer kept up.
+    # As in rostest: catkin's function for Python requires nose, which is unmaintained.
     catkin_run_tests_target(python ${name} python-${name}.xml
       COMMAND "${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/${test} --gtest_output=xml:${results}")
   endforeach()
 endfunction()
 
-# urban_nav_bench(LIBRARY...): bench/NAME.cpp becomes PACKAGE-bench-NAME; bench/support/*.cpp belongs to all of them.
+# urban_nav_bench(LIBRARY...): adds PACKAGE-bench-NAME for each bench/NAME.cpp, all with bench/support/*.cpp.
 function(urban_nav_bench)
   if(NOT URBAN_NAV_BENCH)
     return()
@@ -353,9 +351,9 @@ function(urban_nav_bench)
 endfunction()
 
 # urban_nav_stage([LIBRARIES LIBRARY...] [TEST_LIBRARIES LIBRARY...] [SANITIZED ROOM...] [SANITIZED_WITHOUT SOURCE...]):
-# all of a stage after catkin_package(). src/ becomes the library PACKAGE, linked with LIBRARIES; nodelet/, tools/,
-# test/, test/ros/ and bench/ become what the functions above say, tests and benches linked with TEST_LIBRARIES. What is
-# installed beside libraries and programs stays with the stage, where catkin_lint looks for it.
+# adds all targets of a stage, after catkin_package(): the library PACKAGE from src/, linked with LIBRARIES; nodelet/,
+# tools/, test/, test/ros/ and bench/ by the functions above, tests and benches linked with TEST_LIBRARIES. Other files
+# are installed by the stage itself, as catkin_lint requires.
 function(urban_nav_stage)
   cmake_parse_arguments(arg "" "" "LIBRARIES;TEST_LIBRARIES;SANITIZED;SANITIZED_WITHOUT" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.cpp)

@@ -40,7 +40,7 @@ std::string readFirstLine(const char* command) {
   return line;
 }
 
-/// "NAME=/some/folder/FILE" becomes "NAME=FILE".
+/// Reduces "NAME=/some/folder/FILE" to "NAME=FILE".
 std::string withoutFolder(const std::string& word) {
   const std::size_t slash = word.find_last_of('/'), value = word.find_last_of('=', slash);
   if (slash == std::string::npos) return word;
@@ -50,7 +50,7 @@ std::string withoutFolder(const std::string& word) {
 }  // namespace
 
 BenchTable::BenchTable(std::vector<std::string> columns, int argc, char** argv) : columns_(std::move(columns)) {
-  // Paths are of one machine: a reader needs the names alone.
+  // Folders are specific to one machine; file names are sufficient.
   for (int i = 0; i < argc; ++i) command_ += (i > 0 ? " " : "") + withoutFolder(argv[i]);
 }
 

@@ -22,7 +22,7 @@ const GraphEdge& firstClosure(const SimulatedGraph& graph) {
   return *found;
 }
 
-/// One place, nearly: the robot has come back with a small offset.
+/// Returns a transform near the identity: the robot has returned with a small offset.
 Pose nearlyTheSame(bool planar, Dice& dice) {
   Vector3d t = kSigmaPlace * dice.normals<3>(), angles = kSigmaAngle * dice.normals<3>();  // roll, pitch, yaw
   if (planar) t.z() = angles.x() = angles.y() = 0.0;
@@ -93,7 +93,7 @@ void addAliasedClosures(SimulatedGraph& graph, const AliasOptions& options, std:
       edge.a = here[dice.below(here.size())], edge.b = there[dice.below(there.size())];
       if (edge.a > edge.b) std::swap(edge.a, edge.b);
       const bool swapped = std::binary_search(there.begin(), there.end(), edge.a);
-      // Where b would be seen from a if the two places were one.
+      // Pose of b relative to a if the two places were one.
       const Pose a = trueRelative(graph, swapped ? other : one, edge.a),
                  b = trueRelative(graph, swapped ? one : other, edge.b);
       const Vector6d noise = sigma.cwiseProduct(dice.normals<6>());

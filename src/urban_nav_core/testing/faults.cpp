@@ -141,7 +141,7 @@ bool FaultFilter::spoil(const Fault& fault, const StereoFrame& original, StereoF
 std::optional<StereoFrame> FaultFilter::apply(const StereoFrame& frame) {
   if (!first_stamp_) {
     first_stamp_ = frame.stamp;
-    last_good_ = frame;  // a fault from the first frame on has none before it
+    last_good_ = frame;  // a fault at the first frame has no frame before it
   }
   const StampNs since_first = frame.stamp - *first_stamp_;
   StereoFrame spoilt = frame;

@@ -21,7 +21,7 @@ constexpr std::array kNastyWords = {
     "0x10", "1,5",  "1.5.2", "+",      "2147483648", "1_000",    "",   "\"",   "[[[[[[[[[[[[[[[[",
     "{}",   ":",    "- -",   "%s%n",   "\xff\xfe",   "\xc3\x28", "\r", "\t\t", "#"};
 
-/// Begin and end of the piece of `text` around `position` that holds none of `separators`; empty on a separator.
+/// Returns the part of `text` around `position` without any of `separators`; empty on a separator.
 std::pair<std::size_t, std::size_t> pieceAround(const std::string& text, std::size_t position, const char* separators) {
   const std::size_t end = std::min(text.find_first_of(separators, position), text.size());
   if (end == position || position == 0) return {position, end};

@@ -11,7 +11,7 @@ namespace urban_nav_core::testing {
 
 namespace {
 
-/// x along `forward`, z as near to `up` as that allows. Neither is zero, nor are they parallel.
+/// Returns the rotation with x along `forward` and z as close to `up` as possible. Both are non-zero and not parallel.
 Pose headingAlong(const Vector3d& position, const Vector3d& forward, const Vector3d& up) {
   const Vector3d x = forward.normalized(), y = up.cross(x).normalized();
   Matrix3d R;
@@ -37,7 +37,7 @@ void chainUp(SimulatedGraph& graph, const GraphNoise& noise, Dice& dice) {
 
 using Lattice = std::array<std::size_t, 3>;
 
-/// Where the way to and fro is after `index` steps.
+/// Returns the lattice point of the alternating path after `index` steps.
 Lattice toAndFro(std::size_t index, const Lattice& size) {
   const std::size_t z = index / (size[0] * size[1]), inLayer = index % (size[0] * size[1]);
   std::size_t y = inLayer / size[0], x = inLayer % size[0];
@@ -46,7 +46,7 @@ Lattice toAndFro(std::size_t index, const Lattice& size) {
   return {x, y, z};
 }
 
-/// The step at which the way comes by.
+/// Returns the step at which the path visits the lattice point.
 std::size_t stepAt(const Lattice& at, const Lattice& size) {
   const std::size_t y = at[2] % 2 == 1 ? size[1] - 1 - at[1] : at[1];
   const std::size_t x = (y + at[2] * size[1]) % 2 == 1 ? size[0] - 1 - at[0] : at[0];
@@ -135,7 +135,7 @@ SimulatedGraph manhattanGraph(std::size_t poses, std::size_t side, double densit
     graph.truth.emplace_back(Quaterniond(Eigen::AngleAxisd(yaw, Vector3d::UnitZ())),
                              Vector3d(static_cast<double>(x), static_cast<double>(y), 0.0));
     visits[static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)].push_back(i);
-    // A pose looks along the step that led to it.
+    // x points along the step that led to the pose.
     if (dice.chance(0.25)) heading = (heading + (dice.chance(0.5) ? 1 : 3)) % 4;
     const auto leads = [&](std::size_t h) {
       const int nx = x + kSteps[h][0], ny = y + kSteps[h][1];

@@ -14,13 +14,13 @@ namespace {
 
 constexpr double kHeight = 1.1;  // m, of the camera above the floor
 
-/// 0 before 0, 1 after 1, with two continuous derivatives.
+/// Smooth step: 0 before 0, 1 after 1, with two continuous derivatives.
 double smoothStep(double s) {
   s = std::clamp(s, 0.0, 1.0);
   return s * s * s * (10.0 + s * (6.0 * s - 15.0));
 }
 
-/// What a speed that rises smoothly from 0 to 1 over `ramp` has covered after `t`.
+/// Returns the distance after `t` at a speed that rises smoothly from 0 to 1 over `ramp`.
 double coveredAfter(double t, double ramp) {
   if (t <= 0.0) return 0.0;
   if (ramp <= 0.0 || t >= ramp) return t - 0.5 * std::max(0.0, ramp);
@@ -53,7 +53,7 @@ Motion loop(double a, double b, double height, double round_s) {
   return [=](double t) {
     const double theta = 2.0 * M_PI * t / round_s;
     const Vector3d position(a * std::sin(theta), -b * std::cos(theta), height + 0.015 * std::sin(5.3 * theta));
-    // atan2 jumps at +-pi, the quaternion made of it does not.
+    // atan2 is discontinuous at +-pi, but the quaternion is not.
     const double yaw = std::atan2(b * std::sin(theta), a * std::cos(theta));
     return lookingAlong(position, yaw, 0.02 * std::sin(7.1 * theta),
                         0.02 * std::sin(4.7 * theta + 1.0) - 0.02 * std::sin(1.0));
@@ -77,7 +77,7 @@ Motion spin(const Vector3d& position, double rate, double ramp_s, double lever) 
 }
 
 Motion wander(const Vector3d& position, const Vector3d& reach, double yaw, double angle, std::uint32_t seed) {
-  // Three sines each, of periods between 4 and 30 s, amplitudes that add up to the reach.
+  // Three sines each, with periods between 4 and 30 s and amplitudes that add up to the reach.
   struct Wave {
     double amplitude, rate, phase;
   };

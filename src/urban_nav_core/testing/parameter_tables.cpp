@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/parameters/documents.hpp"
 #include "urban_nav_core/parameters/print.hpp"
 
 namespace urban_nav_core::testing {
@@ -14,12 +15,13 @@ std::string findFaults(const std::string& stage, const std::vector<RowInfo>& of_
   const auto demand = [&](bool so, const std::string& fault) {
     if (!so) faults += fault + "\n";
   };
-  const std::string yaml = "config/" + stage + ".yaml", readme = readTextFile("README.md");
+  const std::string yaml = "config/" + stage + ".yaml", document = findParameterDocument(".");
+  const std::string text = readTextFile(document);
   const std::string anew = ": write it anew by the package's target *_documents";
   demand(readTextFile(yaml) == printYaml(stage, of_stage), yaml + anew);
-  demand(readme == insertMarkdown(readme, "README.md", stage, of_stage), "README.md, the stage" + anew);
-  demand(of_nodelet.empty() || readme == insertMarkdown(readme, "README.md", "", of_nodelet),
-         "README.md, the nodelet" + anew);
+  demand(text == insertMarkdown(text, document, stage, of_stage), document + ", the stage" + anew);
+  demand(of_nodelet.empty() || text == insertMarkdown(text, document, "", of_nodelet),
+         document + ", the nodelet" + anew);
   for (const RowInfo& row : of_stage) {
     demand(!row.source.empty(), row.name + " does not say where it comes from");
     demand(std::none_of(of_nodelet.begin(), of_nodelet.end(), [&](const RowInfo& own) { return own.name == row.name; }),

@@ -9,7 +9,7 @@ namespace urban_nav_core::testing {
 
 namespace {
 
-/// A line of /proc/self/status, bytes.
+/// Returns a value of /proc/self/status, bytes.
 double memory(const std::string& key) {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
@@ -20,7 +20,7 @@ double memory(const std::string& key) {
 }  // namespace
 
 double measureMemory(const std::function<void()>& work) {
-  std::ofstream("/proc/self/clear_refs") << "5";  // the peak begins anew (Linux, proc(5))
+  std::ofstream("/proc/self/clear_refs") << "5";  // resets the peak (Linux, proc(5))
   const double before = memory("VmRSS");
   work();
   return std::max(0.0, memory("VmHWM") - before);

@@ -9,11 +9,11 @@
 namespace urban_nav_core::testing {
 namespace {
 
-// Where planes meet, a pixel is the weighted mean of 4x4 points. In units of the blur: their distance, the variance of
-// their normal weights, and the blur that each still has; so chosen that the variances add up to that of one pixel.
+// Where planes meet, a pixel is the weighted mean of 4x4 points. In units of the blur: their spacing, the variance of
+// their normal weights, and the remaining blur of each, chosen such that the variances add up to that of one pixel.
 constexpr int kPoints = 4;
 constexpr double kStep = 0.9, kWeightVariance = 0.7, kPointBlur = 0.64;
-// Neighbouring pixels of a row, so many, share the filter of their middle.
+// Number of adjacent pixels of a row that share the filter of the central one.
 constexpr int kRun = static_cast<int>(Texture::kRun);
 constexpr double kEdgeOn = 1e-9;  // determinant below which a plane is seen from its edge
 
@@ -43,7 +43,7 @@ void Renderer::place(const Scene& scene, const Pose& T_world_camera) {
     const Vector3d corner = T_camera_world * rectangle.corner;
     Eigen::Matrix3d M;
     M << R * rectangle.a, R * rectangle.b, corner;
-    if (M.determinant() > -kEdgeOn) continue;  // a x b points away, or edge-on
+    if (M.determinant() > -kEdgeOn) continue;  // a x b points away, or the plane is seen edge-on
     const double farthest =
         corner.z() + std::max(0.0, rectangle.size_a * M(2, 0)) + std::max(0.0, rectangle.size_b * M(2, 1));
     if (farthest <= 0.0) continue;

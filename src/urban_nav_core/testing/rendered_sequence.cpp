@@ -9,7 +9,7 @@
 namespace urban_nav_core::testing {
 namespace {
 
-/// Standard normal values at the middles of 4096 equally likely parts, by Newton's method on the distribution function.
+/// Standard normal quantiles at the centres of 4096 equally probable intervals, by Newton's method.
 const std::array<float, 4096>& normalTable() {
   static const std::array<float, 4096> table = [] {
     std::array<float, 4096> values{};
@@ -27,7 +27,7 @@ const std::array<float, 4096>& normalTable() {
   return table;
 }
 
-/// SplitMix64 (Steele et al. 2014): sixty-four good bits for each count.
+/// SplitMix64 (Steele et al. 2014): 64 random bits per count.
 std::uint64_t toBits(std::uint64_t count) {
   std::uint64_t z = count * 0x9E3779B97F4A7C15ULL;
   z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kRad = 0.017453292519943295;
 
-/// Distance along a ray to a block, or `far`.
+/// Returns the distance along a ray to a block, or `far`.
 double hit(const Block& block, const Vector3d& from, const Vector3d& ray, double far) {
   const double c = std::cos(block.heading), s = std::sin(block.heading), dx = from.x() - block.x,
                dy = from.y() - block.y;

@@ -25,14 +25,14 @@ Vector2d along(std::size_t direction) {
 }
 Vector2d turnLeft(const Vector2d& v) { return {-v.y(), v.x()}; }
 
-/// A stretch of the way: straight, or a quarter of a circle to the left (turn 1) or right (turn -1).
+/// Piece of the path: straight, or a quarter of a circle to the left (turn 1) or right (turn -1).
 struct Piece {
   Vector2d start = Vector2d::Zero(), forward = Vector2d::UnitX();
   double length = 0.0;
   int turn = 0;
-  std::size_t street = 0;  // of straight pieces between crossings; else none
+  std::size_t street = 0;  // of straight pieces between crossings
   bool betweenCrossings = false;
-  bool upwards = true;  // in the sense in which the street's metres are counted
+  bool upwards = true;  // in the direction of the street's distance
 };
 
 std::pair<Vector2d, Vector2d> placeAndHeading(const Piece& piece, double s) {
@@ -43,7 +43,7 @@ std::pair<Vector2d, Vector2d> placeAndHeading(const Piece& piece, double s) {
           std::cos(angle) * piece.forward + std::sin(angle) * inward};
 }
 
-/// The way through the town, piece by piece.
+/// Path through the town, piece by piece.
 class Walk {
  public:
   Walk(int side, const StreetOptions& options, Dice& dice) : side_(side), options_(options), dice_(dice) {}
@@ -76,7 +76,7 @@ class Walk {
   }
 
  private:
-  /// Any way but back.
+  /// Any direction except back.
   std::size_t choose() {
     while (true) {
       const std::size_t way = (direction_ + 3 + dice_.below(3)) % 4;
@@ -105,7 +105,7 @@ Pose onTheHills(const Vector2d& place, const Vector2d& heading, double height) {
 
 using Pair = std::pair<std::size_t, std::size_t>;
 
-/// `count` of them, each set equally likely, in order of the later pose.
+/// Returns `count` of them, uniformly over subsets, in order of the later pose.
 std::vector<Pair> pickSome(std::vector<Pair> pairs, std::size_t count, Dice& dice) {
   if (pairs.size() < count)
     throw std::invalid_argument("only " + std::to_string(pairs.size()) + " places are seen again, not " +

@@ -12,26 +12,26 @@ namespace {
 
 constexpr int kLattice = 256;
 constexpr int kLatticeStride = kLattice + 3;
-// Standard deviation of even noise in -1...1 under a cubic B-spline in both directions.
+// Standard deviation of uniform noise in -1...1 under a cubic B-spline in both directions.
 constexpr double kSplineDeviation = 0.277;
-// Waves have most of their energy about 0.35 periods per lattice step: (2 pi 0.35)^2.
+// Energy of the waves is concentrated at about 0.35 periods per lattice step: (2 pi 0.35)^2.
 constexpr double kSquaredFrequency = 4.84;
 constexpr double kMaskFrequency = 0.6;  // lattice steps per m
 constexpr double kReach = 3.5;          // standard deviations after which an edge is over
-// Lattice steps that a run may span so that a parabola follows the waves: the error is under 1 % of the amplitude.
+// Largest number of lattice steps of a run for interpolation by a parabola: the error is under 1 % of the amplitude.
 constexpr double kSlowRun = 0.45;
-constexpr double kNegligible = 0.02;  // share of an amplitude that is not worth its computation
+constexpr double kNegligible = 0.02;  // share of an amplitude that is neglected
 
-/// Weights of the four lattice points about a place, by the powers of its fraction t.
+/// Returns the weights of the four lattice points around a position, by the powers of its fraction t.
 const Eigen::Vector4f kSpline0(1.0F / 6, 4.0F / 6, 1.0F / 6, 0.0F), kSpline1(-0.5F, 0.0F, 0.5F, 0.0F);
 const Eigen::Vector4f kSpline2(0.5F, -1.0F, 0.5F, 0.0F), kSpline3(-1.0F / 6, 0.5F, -0.5F, 1.0F / 6);
 
 inline Eigen::Vector4f splineWeights(float t) { return kSpline0 + t * (kSpline1 + t * (kSpline2 + t * kSpline3)); }
 
-/// exp(-q) to a few per cent, smooth and never negative: as good an edge of the pass band as any.
+/// Approximates exp(-q) to a few per cent, smooth and never negative, which suffices for the edge of the pass band.
 inline double attenuation(double q) { return 1.0 / (1.0 + q * (1.0 + q * (0.5 + q * (1.0 / 6.0)))); }
 
-/// The normal distribution function, from a table where it is neither 0 nor 1.
+/// Normal distribution function, tabulated where it differs from 0 and 1.
 class StepTable {
  public:
   StepTable() {
@@ -117,15 +117,15 @@ Texture::Filter Texture::filter(const Footprint& footprint) const {
   const double middle = 0.5 * (footprint.xx + footprint.yy), half = 0.5 * (footprint.xx - footprint.yy);
   const double spread = std::sqrt(half * half + footprint.xy * footprint.xy);
   const double longest = middle + spread, shortest = std::max(0.0, middle - spread);
-  // The eigenvector of the larger eigenvalue, from the row that does not cancel.
+  // Eigenvector of the larger eigenvalue, from the row without cancellation.
   const double axis_x = half > 0.0 ? spread + half : footprint.xy;
   const double axis_y = half > 0.0 ? footprint.xy : spread - half;
   const double per_axis = 1.0 / (std::sqrt(axis_x * axis_x + axis_y * axis_y) + 1e-300);
   for (std::size_t i = 0; i < waves_.size(); ++i) {
     const double scale2 = waves_[i].frequency * waves_[i].frequency;
     const double major = longest * scale2, minor = shortest * scale2;
-    // A long footprint (ground seen at a low angle) is taken in several round steps along its long axis, each of the
-    // variance that is left when the steps have theirs; where all of it is small beside the lattice, one step does.
+    // A long footprint (ground at a low angle) is divided into several round steps along its major axis, each with the
+    // remaining variance; one step suffices where all of it is small compared with the lattice.
     const int steps = major < 0.05 || major < 3.0 * minor ? 1 : (major < 8.0 * minor ? 2 : 3);
     const double variance = steps == 1 ? major : std::max(minor, major * (steps == 2 ? 0.5 : 0.3));
     const double pass = attenuation(0.5 * kSquaredFrequency * variance);
@@ -138,7 +138,7 @@ Texture::Filter Texture::filter(const Footprint& footprint) const {
   result.per_sigma_y = 1.0 / sigma_y;
   result.base = base_;
   for (std::size_t i = 0; i < patterns_.size(); ++i) {
-    // Where a pixel sees several cells, the nearest do not tell their mean: the pattern fades to the mean of all.
+    // Where a pixel covers several cells, the nearest are not representative: the pattern fades to the overall mean.
     const double blur = std::max(sigma_x * patterns_[i].per_width, sigma_y * patterns_[i].per_height);
     const double fade = attenuation(60.0 * blur * blur * blur * blur);
     result.base += (1.0 - fade) * patterns_[i].mean;
@@ -147,7 +147,7 @@ Texture::Filter Texture::filter(const Footprint& footprint) const {
   return result;
 }
 
-/// How much of a footprint lies on the rectangle of its own cell, and on that of the nearest neighbour.
+/// Returns the coverage of the rectangles of the footprint's own cell and of the nearest neighbour.
 struct Texture::Part {
   int own, other;
   double own_share, other_share;
@@ -210,8 +210,8 @@ double Texture::value(double x, double y, const Filter& filter) const {
   return sum;
 }
 
-/// Fills a run by a function of the place; where the function is slow beside the run, by a parabola through three of
-/// its values.
+/// Fills a run by a function of the position, or, where the function varies slowly, by a parabola through three of its
+/// values.
 template <typename Function>
 void Texture::alongRun(const Run& x, const Run& y, double frequency, Function function, Run& out) {
   constexpr std::size_t kMiddle = kRun / 2, kLast = kRun - 1;
@@ -230,7 +230,7 @@ void Texture::alongRun(const Run& x, const Run& y, double frequency, Function fu
   }
 }
 
-/// The row of cells that all of a run lies in, its edges out of reach; empty if there is none.
+/// Returns the row of cells that contains the whole run, away from its edges; empty if there is none.
 std::optional<int> Texture::commonRow(const Pattern& pattern, const Run& y, const Filter& filter) {
   const Part first = part(y[0], pattern.height, pattern.per_height, pattern.margin_y, filter.per_sigma_y);
   if (first.own_share != 1.0) return std::nullopt;
@@ -253,7 +253,7 @@ void Texture::values(const Run& x, const Run& y, const Filter& filter, Run& grey
   grey.fill(filter.base);
   for (std::size_t i = 0; i < filter.wave_count; ++i) {
     const Filter::Wave& wave = filter.waves[i];
-    // Several steps along a footprint mean that neighbouring pixels are far apart on the lattice.
+    // Several steps along a footprint imply that adjacent pixels are far apart on the lattice.
     const double frequency = wave.steps == 1 ? waves_[wave.which].frequency : 1e9;
     alongRun(
         x, y, frequency, [&](double px, double py) { return waveValue(px, py, wave); }, part_values);

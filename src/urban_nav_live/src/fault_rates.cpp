@@ -8,7 +8,7 @@ namespace urban_nav_live {
 
 namespace {
 
-/// Returns "26 %", and one digit more below 10 %.
+/// Prints "26 %"; one more digit below 10 %.
 std::string printShare(double share) {
   const double percent = 100.0 * share;
   if (percent >= 9.95) return std::to_string(std::lround(percent)) + " %";
@@ -26,7 +26,7 @@ void FaultRates::add(const std::vector<StageReport::FaultCount>& counts) {
     auto& samples = kind.samples;
     if (!samples.empty() && (count.faults < samples.back().faults || count.total < samples.back().total))
       samples.clear();
-    if (samples.empty()) samples.push_back({now - kWindow, 0, 0});  // it has counted from zero
+    if (samples.empty()) samples.push_back({now - kWindow, 0, 0});  // counters start at zero
     samples.push_back({now, count.faults, count.total});
     while (samples.size() > 2 && samples[1].when <= now - kWindow) samples.pop_front();
   }

@@ -58,7 +58,7 @@ std::string TopicMonitor::fault(const std::string& group) const {
   for (const auto& [name, topic] : topics_) {
     if (topic.group != group) continue;
     const double age = this->age(topic);
-    if (!topic.any) append(name + " has not come yet", absent);
+    if (!topic.any) append(name + " has not been received yet", absent);
     else if (age > topic.timeout) append(name + " has been silent for " + printSeconds(age), silent);
   }
   if (!absent.empty()) return absent;

@@ -10,7 +10,7 @@
 namespace urban_nav_live {
 namespace {
 
-/// Rates on a stepped clock, with counters of pairs that are dropped.
+/// Rates with a simulated clock, and counters of dropped pairs.
 struct Rates {
   std::pair<ReportLevel, std::string> second(std::int64_t faults, std::int64_t total) {
     faults_ += faults;

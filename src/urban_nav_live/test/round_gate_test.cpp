@@ -12,7 +12,7 @@ using urban_nav_core::StampNs;
 
 constexpr StampNs kGateSecond = 1'000'000'000;
 
-/// A gate whose items are words, and the text of all that it has passed on; | is a new round.
+/// Gate of text items, which records all delivered items; | marks a new round.
 struct Gate {
   explicit Gate(std::set<int> leading, StampNs patience = 2 * kGateSecond)
       : gate({std::move(leading), patience, 4},
@@ -31,7 +31,7 @@ TEST(RoundGate, AJumpOfAllStreamsIsOneNewRoundWhateverOvertakesWhat) {
     each->add(1, 10.0, "A");
   }
   left_first.add(0, 3.0, "c");
-  left_first.add(1, 10.1, "B");  // of the round that ends
+  left_first.add(1, 10.1, "B");  // of the ending round
   left_first.add(1, 3.0, "C");
   left_first.add(0, 3.1, "d");
   EXPECT_EQ(left_first.text, "aAB|cCd");
@@ -69,14 +69,14 @@ TEST(RoundGate, OthersFollowTheLeadingStream) {
   EXPECT_EQ(gate.text, "Aa");
   gate.add(0, 9.5, "b");
   gate.add(0, 2.9, "c");
-  gate.add(2, 3.1, "x");  // came when the others were there
+  gate.add(2, 3.1, "x");  // arrived when the others were in the next round
   EXPECT_EQ(gate.text, "Aab|Bcx");
 }
 
 TEST(RoundGate, AStreamThatMissedItsJumpComesAlong) {
   Gate gate({0});
   gate.add(0, 10.0, "a");
-  gate.add(1, 6.5, "A");  // and nothing until the clock has stepped back
+  gate.add(1, 6.5, "A");  // no further item until the clock jumps back
   gate.add(0, 6.0, "b");
   gate.add(0, 7.0, "c");
   gate.add(1, 6.9, "B");

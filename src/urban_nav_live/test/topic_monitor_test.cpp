@@ -8,7 +8,7 @@ namespace {
 
 constexpr urban_nav_core::StampNs kMs = 1'000'000;
 
-/// A monitor whose clock the test sets.
+/// Monitor with a clock set by the test.
 struct Monitored {
   TopicMonitor::Clock::time_point now{};
   TopicMonitor monitor{[this] { return now; }};
@@ -22,10 +22,10 @@ TEST(TopicMonitor, NamesTopicsThatHaveNotArrived) {
   m.monitor.expect("/a", 1.0);
   m.monitor.expect("/b", 1.0);
   m.monitor.expect("/c", 1.0, "scans");
-  EXPECT_EQ(m.monitor.fault(), "/a has not come yet, /b has not come yet");
+  EXPECT_EQ(m.monitor.fault(), "/a has not been received yet, /b has not been received yet");
   m.monitor.received("/a");
-  EXPECT_EQ(m.monitor.fault(), "/b has not come yet");
-  EXPECT_EQ(m.monitor.fault("scans"), "/c has not come yet");
+  EXPECT_EQ(m.monitor.fault(), "/b has not been received yet");
+  EXPECT_EQ(m.monitor.fault("scans"), "/c has not been received yet");
   m.monitor.received("/b");
   EXPECT_EQ(m.monitor.fault(), "");
   EXPECT_EQ(m.monitor.fault("unknown"), "");

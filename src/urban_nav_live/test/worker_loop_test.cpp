@@ -64,7 +64,7 @@ TEST(WorkerLoop, AQuestionThatIsDroppedHasNoAnswer) {
     EXPECT_FALSE(loop.ask([] { return 1; }, kLoopWait).has_value());
     done = true;
   });
-  while (!done) {  // each displaces what waits, the question at some time
+  while (!done) {  // each displaces a waiting item, eventually the question
     loop.push(2);
     std::this_thread::yield();
   }

@@ -21,8 +21,8 @@ const Table<Parameters>& table() {
            "Search for local clouds in the map.",
            "paper 4.2"},
           {"gate", &P::gate, "", 5.0, 1.0, 1000.0, {},
-           "Largest difference of two matches along odometry, in standard deviations (root mean square), to support "
-           "each other.",
+           "Largest difference between two matches connected by odometry for mutual support, in standard deviations "
+           "(root mean square).",
            "paper 4", {}, Audience::Experts},
           {"map_sigma", &P::map_sigma, "m", 0.05, 0.0, 10.0, {},
            "Standard deviation of positions in the map.",

@@ -11,8 +11,8 @@
 
 namespace urban_nav_ros {
 
-/// Publishes stereo/{left,right}/image_rect, so that the stages of a manager share one decoded and rectified image by
-/// pointer.
+/// Publishes stereo/{left,right}/image_rect, so that the stages of a nodelet manager share one decoded and rectified
+/// image by pointer.
 class StereoRectifyStage {
  public:
   static constexpr const char* name = "stereo_rectify";
@@ -28,7 +28,7 @@ class StereoRectifyStage {
   bool idle() { return false; }
   std::string reset() {
     rectifier_->reset();
-    return "images that waited are dropped";
+    return "waiting images were dropped";
   }
   void close() {}
   urban_nav_live::StageReport report() const { return rectifier_->report(); }
@@ -65,7 +65,7 @@ StereoRectifyStage::StereoRectifyStage(Node& node) {
   options.where = node.nh().resolveName("stereo");
   rectifier_ = std::make_unique<StereoRectifier>(options, listener);
   TopicOptions subscription;
-  subscription.timeout = 1.0;  // s; the slowest cameras that odometry can use have 5 Hz
+  subscription.timeout = 1.0;  // s; the lowest frame rate for odometry is 5 Hz
   subscription.queue = parameters.queue_size;
   subscribeImages(node, subscription, parameters.compressed);
 }

@@ -13,7 +13,7 @@ using urban_nav_core::SpecificForce;
 
 namespace {
 
-// Without tf: ten minutes at 100 Hz.
+// Capacity without tf: ten minutes at 100 Hz.
 constexpr std::size_t kMostWaiting = 60'000;
 
 }  // namespace
@@ -68,7 +68,7 @@ void Accelerometer::addTo(urban_nav_live::StageReport& report) const {
   const urban_nav_core::AccelerometerVerdict now = verdict();
   const std::string fault = now.sentence();
   const std::vector<CorrectionSetting> settings = settingsFor(now, convention_);
-  report.add("accelerometer", fault.empty() ? "sound or absent" : fault);
+  report.add("accelerometer", fault.empty() ? "plausible or absent" : fault);
   report.add("specific forces not used", withheld());
   const std::lock_guard<std::mutex> lock(mutex_);
   report.fault_counts.push_back({std::string("measurements on ") + topics::kImu + " were not finite", not_finite_,

@@ -11,7 +11,7 @@
 
 namespace urban_nav_ros {
 
-/// Reads or writes a message in its serialised form. Throws DataError for bytes that end too early.
+/// Reads or writes a message in its serialised form. Throws DataError for truncated bytes.
 template <typename Message>
 void archiveMessage(urban_nav_core::Archive& archive, boost::shared_ptr<const Message>& message) {
   namespace wire = ros::serialization;
@@ -28,7 +28,7 @@ void archiveMessage(urban_nav_core::Archive& archive, boost::shared_ptr<const Me
     wire::IStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
     wire::deserialize(stream, *read);
   } catch (const ros::Exception&) {
-    archive.require(false, "a message ends too early");
+    archive.require(false, "a message is truncated");
   }
   message = read;
 }

@@ -10,7 +10,7 @@ using RowMajor34 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 
 namespace {
 
-/// Scales a projection from the full resolution to a binned one, after the region of interest has been cut out.
+/// Scales a projection from full resolution to a binned one, after cropping to the region of interest.
 template <typename Matrix>
 void cutAndBin(double x_offset, double y_offset, double binning_x, double binning_y, Matrix& M) {
   M.row(0) -= x_offset * M.row(2);

@@ -63,7 +63,7 @@ urban_nav_core::PoseRef toPoseRef(const urban_nav_msgs::PoseRef& message) {
 }
 
 std::optional<Constraint> toConstraint(const geometry_msgs::Pose& T_a_b, const boost::array<double, 36>& information) {
-  constexpr double kRounding = 1e-6;  // of numbers that a person typed or a file printed with six digits
+  constexpr double kRounding = 1e-6;  // of numbers typed by hand or printed with six digits
   const auto pose = toPose(T_a_b);
   const Matrix6d matrix = toMatrix6(information);
   if (!pose || !matrix.allFinite()) return std::nullopt;

@@ -30,7 +30,7 @@ double Arrival::age() const {
   return any_ ? std::chrono::duration<double>(Clock::now() - when_).count() : std::numeric_limits<double>::infinity();
 }
 
-std::string Arrival::absence() const { return name_.empty() || any_ ? "" : name_ + " has not come yet"; }
+std::string Arrival::absence() const { return name_.empty() || any_ ? "" : name_ + " has not been received yet"; }
 
 std::string Arrival::silence(double longest) const {
   const double age = this->age();

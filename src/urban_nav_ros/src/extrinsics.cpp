@@ -14,8 +14,8 @@ using urban_nav_core::Pose;
 
 namespace {
 
-constexpr double kUnit = 1e-3;                     // deviation of a quaternion's length from 1
-constexpr double kShortest = 0.5, kLongest = 2.0;  // lengths of quaternions that are normalised
+constexpr double kUnit = 1e-3;                     // tolerance of a quaternion's length
+constexpr double kShortest = 0.5, kLongest = 2.0;  // range of lengths that are normalised
 constexpr double kSameDistance = 1e-3;             // m
 constexpr double kSameAngle = 0.1 * M_PI / 180.0;  // rad
 
@@ -77,7 +77,7 @@ std::optional<StaticTransforms::Climb> StaticTransforms::climb(const std::string
     if (link == parents_.end()) return result;
     result = {link->second.parent, link->second.T_parent_child * result.T_root_frame};
   }
-  return std::nullopt;  // a ring
+  return std::nullopt;  // cycle of frames
 }
 
 std::optional<Pose> StaticTransforms::lookup(const std::string& to, const std::string& from) const {

@@ -12,9 +12,9 @@ using urban_nav_core::Vector3d;
 
 namespace {
 
-constexpr double kUnknownSigma = 5.0;  // m, of single receivers in towns
+constexpr double kUnknownSigma = 5.0;  // m, for single receivers in towns
 constexpr double kLeastSigma = 0.01;   // m
-constexpr double kNoHeight = 1e4;      // m: standard deviation of a height that the receiver does not state
+constexpr double kNoHeight = 1e4;      // m: standard deviation of an unknown height
 
 bool isUsable(const sensor_msgs::NavSatFix& fix) {
   return fix.status.status >= sensor_msgs::NavSatStatus::STATUS_FIX && std::abs(fix.latitude) <= 90.0 &&
@@ -35,7 +35,7 @@ std::optional<GpsReading> toGpsReading(const sensor_msgs::NavSatFix& fix) {
   const bool is_stated = fix.position_covariance_type != sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN;
   for (std::size_t axis = 0; is_stated && axis < 3; ++axis) {
     const double variance = fix.position_covariance[4 * axis];
-    if (std::isfinite(variance) && variance > 0.0)  // zero is not known
+    if (std::isfinite(variance) && variance > 0.0)  // zero means unknown
       reading.sigma(static_cast<Eigen::Index>(axis)) = std::max(kLeastSigma, std::sqrt(variance));
   }
   if (!std::isfinite(fix.altitude)) reading.sigma.z() = kNoHeight;

@@ -9,13 +9,13 @@
 namespace urban_nav_ros {
 namespace {
 
-constexpr int kSettlingImages = 40;   // the first seconds of a pair
-constexpr double kLowShare = 0.001;   // share of the pixels are darker than the range
-constexpr double kHighShare = 0.999;  // and this share is not brighter
+constexpr int kSettlingImages = 40;   // first seconds of a pair
+constexpr double kLowShare = 0.001;   // share of pixels below the range
+constexpr double kHighShare = 0.999;  // one minus the share of pixels above the range
 constexpr double kLevels = 256.0;
-constexpr double kLeastLevels = 64.0;  // that the range covers, to be kept as an 8-bit camera would show it
-constexpr double kBrighter = 2.0;      // than can be shown: then the range has changed for good
-constexpr int kSmall = 65536;          // pixels: smaller images are counted whole
+constexpr double kLeastLevels = 64.0;  // grey levels of a range that is displayed as by an 8-bit camera
+constexpr double kBrighter = 2.0;      // relative to the upper end: then the range has changed permanently
+constexpr int kSmall = 65536;          // pixels: smaller images are not subsampled
 constexpr std::size_t kValues = 65536;
 
 using Histogram = std::vector<std::uint32_t>;
@@ -28,7 +28,7 @@ void count(const cv::Mat& grey, Histogram& histogram) {
   }
 }
 
-/// Returns the smallest value that `share` of the pixels do not exceed.
+/// Returns the smallest value that at least `share` of the pixels do not exceed.
 double quantile(const Histogram& histogram, double share) {
   double all = 0.0, seen = 0.0;
   for (const std::uint32_t n : histogram) all += n;
@@ -75,7 +75,8 @@ void GreyRange::add(const cv::Mat& grey) {
 
 void GreyRange::archive(urban_nav_core::Archive& archive) {
   archive(scale_.offset, scale_.step, is_settled_);
-  archive.require(std::isfinite(scale_.offset) && scale_.step > 0.0 && std::isfinite(scale_.step), "no grey scale");
+  archive.require(std::isfinite(scale_.offset) && scale_.step > 0.0 && std::isfinite(scale_.step),
+                  "a grey scale is invalid");
   if (archive.isReading()) is_settled_ = true;
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr std::chrono::seconds kTfTimeout{1};
 constexpr std::size_t kMostNormals = 1000;
 
-/// Standard deviation of the direction of a normal, rad; NaN if the message is not finite.
+/// Returns the standard deviation of a normal's direction, rad; NaN if the message is not finite.
 double directionSigma(const urban_nav_msgs::GroundPlane& message) {
   Eigen::Matrix3d covariance;
   for (int row = 0; row < 3; ++row)

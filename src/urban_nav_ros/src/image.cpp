@@ -20,12 +20,12 @@ using urban_nav_core::ImageView;
 
 namespace {
 
-constexpr int kAsItIs = -1;  // one channel already
+constexpr int kAsItIs = -1;  // single channel
 
 struct Layout {
   const char* encoding;
   int type;
-  int to_grey;  // code of cv::cvtColor
+  int to_grey;  // conversion code of cv::cvtColor
 };
 
 const std::array<Layout, 26>& layouts() {
@@ -75,10 +75,10 @@ std::string knownEncodings() {
   return names;
 }
 
-/// The message's bytes as a matrix that shares them; empty with a fault if they are not what the header says.
+/// Returns the message's bytes as a matrix without a copy; empty with a fault if they contradict the header.
 GreyImage toPixels(const sensor_msgs::Image& message, const Layout*& layout) {
   layout = findLayout(message.encoding);
-  if (layout == nullptr) return {{}, "encoding " + message.encoding + ": known are " + knownEncodings()};
+  if (layout == nullptr) return {{}, "encoding " + message.encoding + ": supported: " + knownEncodings()};
   if (message.width == 0 || message.height == 0) return {{}, "no pixels"};
   if (message.width > 65535 || message.height > 65535) return {{}, "larger than 65535 pixels"};
   const std::size_t row = message.width * static_cast<std::size_t>(CV_ELEM_SIZE(layout->type));
@@ -86,9 +86,9 @@ GreyImage toPixels(const sensor_msgs::Image& message, const Layout*& layout) {
     return {{}, "step " + std::to_string(message.step) + " is shorter than a row of " + std::to_string(row) + " bytes"};
   const std::size_t needed = static_cast<std::size_t>(message.step) * (message.height - 1) + row;
   if (message.data.size() < needed) {
-    return {{}, std::to_string(message.data.size()) + " bytes where " + std::to_string(needed) + " are needed"};
+    return {{}, std::to_string(message.data.size()) + " bytes, expected " + std::to_string(needed)};
   }
-  auto* bytes = const_cast<std::uint8_t*>(message.data.data());  // cv::Mat has no const view; it is not written through
+  auto* bytes = const_cast<std::uint8_t*>(message.data.data());  // cv::Mat has no const view; it is only read
   cv::Mat shared(static_cast<int>(message.height), static_cast<int>(message.width), layout->type, bytes, message.step);
   if (CV_MAT_DEPTH(layout->type) == CV_16U && message.is_bigendian != 0) {
     cv::Mat swapped = shared.clone();
@@ -102,10 +102,10 @@ GreyImage toPixels(const sensor_msgs::Image& message, const Layout*& layout) {
   return {shared, {}};
 }
 
-constexpr std::size_t kPngDepthAt = 24;  // PNG keeps the depth in its 25th byte
+constexpr std::size_t kPngDepthAt = 24;  // offset of the bit depth in a PNG
 
-/// Returns the Bayer layout of pixels that were compressed as a mosaic ("bayer_rggb8; png compressed"); nullptr for
-/// decoded images that hold grey or colour already ("bayer_rggb8; jpeg compressed bgr8").
+/// Returns the Bayer layout of compressed mosaics ("bayer_rggb8; png compressed"); nullptr for decoded images that
+/// already have grey or colour ("bayer_rggb8; jpeg compressed bgr8").
 const Layout* mosaicLayout(const std::string& format, const cv::Mat& decoded) {
   if (format.compare(0, 6, "bayer_") != 0 || decoded.channels() != 1) return nullptr;
   const std::size_t end = format.find_first_of("; ");
@@ -123,16 +123,15 @@ GreyImage decode(const sensor_msgs::CompressedImage& message) {
   try {
     cv::Mat decoded = cv::imdecode(message.data, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
     if (decoded.empty())
-      return {
-          {},
-          "format \"" + message.format + "\": " + std::to_string(message.data.size()) + " bytes that do not decode"};
+      return {{},
+              "format \"" + message.format + "\": " + std::to_string(message.data.size()) + " bytes cannot be decoded"};
     return {decoded, {}};
   } catch (const cv::Exception& error) {
     return {{}, "format \"" + message.format + "\": " + error.err};
   }
 }
 
-/// The scale of an image by itself.
+/// Returns the scale of a single image.
 GreyScale ownScale(const cv::Mat& grey) {
   GreyRange range;
   range.add(grey);
@@ -172,7 +171,7 @@ GreyImage toDeepGrey(const sensor_msgs::Image& message) {
   GreyImage image = toPixels(message, layout);
   if (image.pixels.empty() || layout->to_grey == kAsItIs) return image;
   cv::Mat grey;
-  cv::cvtColor(image.pixels, grey, layout->to_grey);  // never into the message's own bytes
+  cv::cvtColor(image.pixels, grey, layout->to_grey);  // a new matrix, because the message must not be modified
   return {grey, {}};
 }
 
@@ -195,7 +194,7 @@ GreyImage toDeepGrey(const cv::Mat& pixels) {
   } else if (pixels.channels() == 4) {
     cv::cvtColor(pixels, grey, cv::COLOR_BGRA2GRAY);
   } else if (pixels.channels() != 1) {
-    return {{}, std::to_string(pixels.channels()) + " channels: 1, 3 or 4 are known"};
+    return {{}, std::to_string(pixels.channels()) + " channels: supported: 1, 3 or 4"};
   }
   return {grey, {}};
 }
@@ -209,7 +208,7 @@ bool isDeep(const sensor_msgs::CompressedImage& message) {
   const std::vector<std::uint8_t>& bytes = message.data;
   if (bytes.size() <= kPngDepthAt) return false;
   if (bytes[0] == 0x89 && bytes[1] == 'P' && bytes[2] == 'N' && bytes[3] == 'G') return bytes[kPngDepthAt] == 16;
-  return (bytes[0] == 'I' && bytes[1] == 'I') || (bytes[0] == 'M' && bytes[1] == 'M');  // TIFF: perhaps
+  return (bytes[0] == 'I' && bytes[1] == 'I') || (bytes[0] == 'M' && bytes[1] == 'M');  // possibly TIFF
 }
 
 GreyImage toGrey(const sensor_msgs::Image& message, const GreyScale& scale) {
@@ -226,12 +225,12 @@ GreyImage toGrey(const cv::Mat& pixels) { return withOwnScale(toDeepGrey(pixels)
 
 namespace {
 
-/// Decodes to three channels as deep as stored.
+/// Decodes to three channels at the stored bit depth.
 GreyImage toDeepColour(const sensor_msgs::CompressedImage& message) {
   GreyImage image = decode(message);
   if (image.pixels.empty()) return image;
   if (const Layout* layout = mosaicLayout(message.format, image.pixels)) {
-    // Codes of conversion to colour and to grey have one order: rggb, gbrg, bggr, grbg.
+    // Conversion codes to colour and to grey have the same order: rggb, gbrg, bggr, grbg.
     cv::Mat colour;
     cv::cvtColor(image.pixels, colour, layout->to_grey - cv::COLOR_BayerBG2GRAY + cv::COLOR_BayerBG2BGR);
     image.pixels = colour;

@@ -10,7 +10,7 @@ ImageFeatures extractFeatures(const urban_nav_core::ImageView& image) {
   constexpr int kMostFeatures = 1000;
   ImageFeatures features;
   if (image.empty()) return features;
-  // OpenCV does not write through the pointer.
+  // The const_cast is safe: OpenCV only reads the pixels.
   const cv::Mat pixels(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),  // NOLINT
                        static_cast<std::size_t>(image.stride));
   cv::ORB::create(kMostFeatures, 1.2F, 1)

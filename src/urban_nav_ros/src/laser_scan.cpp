@@ -33,21 +33,21 @@ using urban_nav_core::PlanarScan;
 using urban_nav_core::ScanFault;
 using urban_nav_core::ScanVerdict;
 
-constexpr double kFarthest = 1e6;  // in any unit: no laser reaches it
+constexpr double kFarthest = 1e6;  // in any unit: beyond any laser
 constexpr double kTurn = 2.0 * M_PI;
 constexpr double kDegrees = M_PI / 180.0;
-constexpr double kSameSpan = 0.1;    // relative: ends of the angles and their increment in one unit
-constexpr double kLeastReach = 1.0;  // m: every planar laser measures farther
+constexpr double kSameSpan = 0.1;    // relative tolerance between angle_max - angle_min and the sum of increments
+constexpr double kLeastReach = 1.0;  // m: less than the range of any planar laser
 constexpr double kFewValid = 0.1;    // share of beams
-constexpr double kSpread = 1.05;     // ratio of quartiles of the ranges: a value for "no return" has none
+constexpr double kSpread = 1.05;     // ratio of quartiles of the ranges: a constant for "no return" has a ratio of 1
 
-/// Angles of the first beam and from beam to beam, as stated.
+/// Angle of the first beam and angular step, as stated.
 struct Angles {
   double first = 0.0, step = 0.0;
   double ends = 0.0;  ///< angle_max - angle_min; not finite: unknown
 };
 
-/// Takes what is not finite, or an increment of zero, from the other two numbers.
+/// Derives an angle that is not finite, or an increment of zero, from the other two.
 std::optional<Angles> readAngles(const sensor_msgs::LaserScan& message) {
   const double last = message.angle_max, steps = static_cast<double>(message.ranges.size()) - 1.0;
   Angles angles{message.angle_min, message.angle_increment, last - static_cast<double>(message.angle_min)};
@@ -58,7 +58,7 @@ std::optional<Angles> readAngles(const sensor_msgs::LaserScan& message) {
   return angles;
 }
 
-/// Returns whether one of the spans is the other one in degrees.
+/// Returns whether one span equals the other in degrees.
 bool isInDegrees(double degrees, double radians) {
   return std::abs(kDegrees * degrees / radians - 1.0) < kSameSpan && std::abs(radians) > 0.0;
 }
@@ -69,7 +69,7 @@ void scaleAngles(Angles& angles, double scale, std::size_t beams) {
   if (!isInDegrees(angles.ends, span)) angles.step *= scale;
 }
 
-/// Returns the time from beam to beam, s: as stated, else that of a mirror which turns once in scan_time, else 0.
+/// Returns the time between beams, s: as stated, else from scan_time per revolution, else 0.
 double readTimeStep(const sensor_msgs::LaserScan& message, double scale, double angle_step) {
   if (std::isfinite(message.time_increment)) return scale * static_cast<double>(message.time_increment);
   if (!std::isfinite(message.scan_time) || message.scan_time <= 0.0F) return 0.0;
@@ -91,7 +91,7 @@ std::optional<PlanarScan> read(const sensor_msgs::LaserScan& message, const Lase
   scan.ranges = message.ranges;
   if (const double scale = convention.range_scale; scale != 1.0) {
     for (float& range : scan.ranges) range = static_cast<float>(scale * static_cast<double>(range));
-    if (scale * scan.range_max >= kLeastReach) {  // otherwise the limits are in metres already
+    if (scale * scan.range_max >= kLeastReach) {  // otherwise the limits are already in metres
       scan.range_min *= scale;
       scan.range_max *= scale;
     }
@@ -100,7 +100,7 @@ std::optional<PlanarScan> read(const sensor_msgs::LaserScan& message, const Lase
   return scan;
 }
 
-/// Returns whether hardly a range is within the limits, and those outside are measurements.
+/// Returns whether hardly any range is within the limits, although those outside are measurements.
 bool isBeyondLimits(const PlanarScan& scan) {
   std::vector<float> finite;
   std::size_t valid = 0;
@@ -114,7 +114,7 @@ bool isBeyondLimits(const PlanarScan& scan) {
   return static_cast<double>(finite[3 * finite.size() / 4]) > kSpread * static_cast<double>(finite[finite.size() / 4]);
 }
 
-/// Returns what is wrong with the units of a scan that was read, and whose ends of angles the message states.
+/// Returns the fault of the units of a converted scan whose message states both end angles.
 ScanVerdict checkUnits(const PlanarScan& scan, const sensor_msgs::LaserScan& message,
                        const LaserConvention& convention) {
   const double span = scan.angle_step * (static_cast<double>(scan.ranges.size()) - 1.0);

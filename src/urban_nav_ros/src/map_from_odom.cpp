@@ -12,7 +12,7 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-// Odometry that waits for its map -> odom: what tf keeps, 10 s, at 20 Hz.
+// Stamps kept while map -> odom is unknown: 10 s, the duration of the tf buffer, at 20 Hz.
 constexpr std::size_t kMostUnsent = 200;
 
 }  // namespace

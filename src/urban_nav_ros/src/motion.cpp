@@ -16,12 +16,12 @@ using urban_nav_core::Vector3d;
 
 namespace {
 
-// Resolution of usual encoders over one message: 1 mm, 1 mrad.
+// Resolution of typical encoders per message: 1 mm, 1 mrad.
 constexpr double kResolution = 1e-3;
 
 double toInformation(double sigma) { return 1.0 / (sigma * sigma); }
 
-/// Returns the standard deviation of a rate as the message has it, rad/s; 0 where it states none that can be.
+/// Returns the standard deviation of a rate stated by the message, rad/s; 0 if it is missing or implausible.
 double statedNoise(const sensor_msgs::Imu& message) {
   constexpr double kLeast = 1e-5, kMost = 10.0;  // rad/s
   const auto& covariance = message.angular_velocity_covariance;
@@ -63,7 +63,7 @@ std::optional<MotionInput> GyroMotion::add(const sensor_msgs::Imu& message) {
   const Vector3d measured(message.angular_velocity.x, message.angular_velocity.y, message.angular_velocity.z);
   const StampNs stamp = toStampNs(message.header.stamp);
   const bool absent =
-      message.angular_velocity_covariance[0] < 0.0;  // sensor_msgs/Imu: element 0 is -1 where there is no gyroscope
+      message.angular_velocity_covariance[0] < 0.0;  // sensor_msgs/Imu: element 0 is -1 without a gyroscope
   if (absent || !measured.allFinite() || (last_ && stamp <= last_->stamp)) return std::nullopt;
   const Vector3d rate = R_base_imu_ * measured;
   const std::optional<Last> last = last_;

@@ -13,9 +13,9 @@ namespace urban_nav_ros {
 namespace {
 
 constexpr std::chrono::milliseconds kPoll{50};
-constexpr std::chrono::milliseconds kLastMessages{1500};  // in which roscpp sends what has been published
+constexpr std::chrono::milliseconds kLastMessages{1500};  // time in which roscpp sends pending messages
 
-volatile std::sig_atomic_t is_interrupted = 0;  // all that a handler of signals may write
+volatile std::sig_atomic_t is_interrupted = 0;  // the only type that a signal handler may write
 
 void noteInterrupt(int) { is_interrupted = 1; }
 
@@ -42,7 +42,7 @@ int OrderlyEnd::add(int order, Finish finish) {
 }
 
 void OrderlyEnd::remove(int number) {
-  // The loaders of the nodelets are interrupted, too, and unload them.
+  // The nodelet loaders are interrupted as well, and unload the nodelets.
   while (is_interrupted != 0 && !finished_ && !ends_) std::this_thread::sleep_for(kPoll);
   const std::lock_guard<std::mutex> lock(mutex_);
   for (auto each = stages_.begin(); each != stages_.end();)

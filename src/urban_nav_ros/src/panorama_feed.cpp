@@ -59,7 +59,7 @@ void PanoramaFeed::archive(urban_nav_core::Archive& archive) {
   queue_.archive(archive, [](urban_nav_core::Archive& items, RecordedImage& image) { image.archive(items); });
   for (RecordedImage& image : group_) image.archive(archive);
   archive(group_stamp_, missing_, panoramas_, finished_, range_);
-  archive.require(missing_.size() == options_.cameras, "another number of cameras");
+  archive.require(missing_.size() == options_.cameras, "its number of cameras differs");
 }
 
 const urban_nav_core::TimeOrderedQueueCounts& PanoramaFeed::counts(std::size_t camera) const {

@@ -14,7 +14,7 @@ namespace {
 struct ColourLayout {
   const char* encoding;
   int type;
-  int to_bgr;  // code of cv::cvtColor; kSameOrder: none
+  int to_bgr;  // conversion code of cv::cvtColor; kSameOrder: none
 };
 
 constexpr int kSameOrder = -1;
@@ -109,14 +109,14 @@ std::string RecordedImage::jpeg() const {
 void RecordedImage::archive(urban_nav_core::Archive& archive) {
   int kind = raw_ ? 1 : compressed_ ? 2 : 0;
   archive(kind);
-  archive.require(kind >= 0 && kind <= 2, "no such image");
+  archive.require(kind >= 0 && kind <= 2, "a kind of image is unknown");
   if (archive.isReading()) *this = RecordedImage();
   if (kind == 1) archiveMessage(archive, raw_);
   if (kind == 2) archiveMessage(archive, compressed_);
   bool has_scale = scale_.has_value();
   GreyScale scale = scale_.value_or(GreyScale());
   archive(has_scale, scale.offset, scale.step);
-  archive.require(scale.step > 0.0, "no grey scale");
+  archive.require(scale.step > 0.0, "a grey scale is invalid");
   if (archive.isReading() && has_scale) scale_ = scale;
 }
 

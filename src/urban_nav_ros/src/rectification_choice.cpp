@@ -15,8 +15,8 @@ using urban_nav_core::ImageView;
 namespace {
 
 constexpr std::size_t kLeastPairs = 3, kLeastRowMatches = 100;
-constexpr double kFarRow = 20.0;                            // px: chance matches
-constexpr double kClearlyWorse = 2.0, kVisiblyWorse = 0.5;  // times and px between the row errors
+constexpr double kFarRow = 20.0;                            // px: larger errors are false matches
+constexpr double kClearlyWorse = 2.0, kVisiblyWorse = 0.5;  // ratio and difference (px) of row errors
 
 /// Appends the row errors of matching points, px.
 void appendRowErrors(const ImageView& left, const ImageView& right, std::vector<double>& errors) {
@@ -42,8 +42,8 @@ std::string RectificationChoice::contradiction(bool as_named) const {
   if (isRectified(as_named) == as_named) return "";
   return std::string(is_rectified ? "images are rectified already, although their calibration has a distortion"
                                   : "images are raw, although their topic is named as rectified") +
-         ": rows differ by " + toPixels(as_they_are_px) + " as they are, by " + toPixels(rectified_px) +
-         " once rectified";
+         ": rows differ by " + toPixels(as_they_are_px) + " without and by " + toPixels(rectified_px) +
+         " with rectification";
 }
 
 RectificationChoice chooseRectification(const std::vector<ImagePair>& pairs, const StereoCalibration& rectifying) {
@@ -54,7 +54,7 @@ RectificationChoice chooseRectification(const std::vector<ImagePair>& pairs, con
     appendRowErrors(toView(left), toView(right), as_they_are);
     const ImageView left_view = rectifying.rectify(Side::Left, toView(left), left_pixels);
     const ImageView right_view = rectifying.rectify(Side::Right, toView(right), right_pixels);
-    if (left_view.empty() || right_view.empty()) return choice;  // of another size than the calibration
+    if (left_view.empty() || right_view.empty()) return choice;  // the size differs from that of the calibration
     appendRowErrors(left_view, right_view, rectified);
   }
   if (pairs.size() < kLeastPairs || std::min(as_they_are.size(), rectified.size()) < kLeastRowMatches) return choice;

@@ -20,7 +20,7 @@ SensorCorrections toCorrections(const SensorCorrectionParameters& parameters) {
   if (!axes)
     throw UserError("input.accelerometer_axes", "\"" + parameters.accelerometer_axes + "\"",
                     "x, y and z in any order, each with or without a minus, such as -x,-y,-z");
-  if (parameters.wheels_scale == 0.0) throw UserError("input.wheels_scale", "0", "a factor that leaves a distance");
+  if (parameters.wheels_scale == 0.0) throw UserError("input.wheels_scale", "0", "a factor other than 0");
   SensorCorrections corrections;
   corrections.accelerometer = {*axes, parameters.accelerometer_scale};
   corrections.gyroscope_scale = parameters.gyroscope_scale;

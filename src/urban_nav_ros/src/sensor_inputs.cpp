@@ -11,7 +11,7 @@ namespace urban_nav_ros {
 
 namespace {
 
-/// Returns the laser of a topic, 0 left, 1 right; -1: of none.
+/// Returns the laser of a topic: 0 left, 1 right, -1 none.
 int findLaser(const std::string& topic) {
   if (topic == topics::kLaserLeft) return 0;
   return topic == topics::kLaserRight ? 1 : -1;
@@ -37,8 +37,8 @@ const urban_nav_core::Table<LiveCorrectionParameters>& liveCorrectionTable() {
                      -1000.0,
                      1000.0,
                      {},
-                     "How much later the right images are stamped than the left ones, though they are exposed "
-                     "together; stereo_rectify takes it from their stamps.",
+                     "Delay of the stamps of the right images relative to left images of the same exposure; "
+                     "subtracted by stereo_rectify.",
                      "docs/files.md"}}));
   return table;
 }

@@ -56,9 +56,9 @@ void StageNode::fill(diagnostic_updater::DiagnosticStatusWrapper& status) const 
   const urban_nav_live::InputGate::Counts counts = gate_.counts();
   std::vector<urban_nav_live::StageReport::FaultCount> faults = report_.fault_counts;
   faults.push_back({"inputs were dropped", dropped_, pushed_,
-                    "this stage is slower than they come; lower their rate, or give it a processor"});
+                    "the stage is slower than its inputs; lower their rate, or free processor time"});
   faults.push_back({"messages were damaged", counts.invalid, counts.received,
-                    "they are not finite or of an unknown kind; the log names the topic"});
+                    "they are not finite or have an unknown enumerator; the log names the topic"});
   rates_.add(faults);
   const auto [rate_level, rate_sentence] = rates_.summary();
   const urban_nav_live::TopicMonitor::Fault topics = monitor_.worstFault();
@@ -107,7 +107,7 @@ void StageNode::logWarning(const std::string& key, const std::string& text) {
 void StageNode::awaitInputs(std::chrono::steady_clock::time_point end) const {
   constexpr std::chrono::milliseconds kPoll{20}, kQuiet{300};
   if (awaited_.empty()) return;
-  ros::V_string own;  // stages of this process have finished before
+  ros::V_string own;  // stages of this process have finished already
   ros::this_node::getAdvertisedTopics(own);
   const auto is_over = [&own](const ros::Subscriber& topic) {
     return topic.getNumPublishers() == 0 || std::find(own.begin(), own.end(), topic.getTopic()) != own.end();
@@ -119,7 +119,7 @@ void StageNode::awaitInputs(std::chrono::steady_clock::time_point end) const {
     if (now != received) changed = Clock::now();
     received = now;
     if (Clock::now() - changed >= kQuiet && std::all_of(awaited_.begin(), awaited_.end(), is_over)) return;
-    // Sensors may go on: what comes of them does not matter once the awaited topics have ended.
+    // Sensors may continue: their messages have no effect once the awaited topics have ended.
     if (std::all_of(awaited_.begin(), awaited_.end(), [](const auto& topic) { return topic.getNumPublishers() == 0; }))
       return;
     std::this_thread::sleep_for(kPoll);

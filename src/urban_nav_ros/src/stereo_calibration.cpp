@@ -10,7 +10,7 @@ using urban_nav_core::RectifyMap;
 
 namespace {
 
-// A driver that does not rectify leaves R at zero.
+// A driver that does not rectify leaves R zero.
 Eigen::Matrix3d toRotation(const CameraInfo& info) {
   return info.R.isZero() ? Eigen::Matrix3d::Identity().eval() : info.R;
 }

@@ -18,7 +18,7 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-/// The pixels that a view looks into, whoever they belong to.
+/// Owner of the pixels of a view.
 struct Pixels {
   sensor_msgs::ImageConstPtr message;  // mono8 is not copied
   cv::Mat grey;
@@ -72,8 +72,8 @@ void StereoFeed::widen(const Input& input) {
   if (packed != nullptr) range_.add(**packed);
 }
 
-/// The range of 16-bit pixels is one for both cameras: before an image is decoded, its partner is taken into account
-/// too.
+/// Adds the partner of an image to the range of 16-bit pixels before decoding, since the range is common to both
+/// cameras.
 void StereoFeed::widenByPair(StampNs stamp, const Input& input) {
   if (range_.isSettled()) return;
   widen(input);
@@ -147,7 +147,7 @@ void StereoFeed::archive(urban_nav_core::Archive& archive) {
   queue_.archive(archive, [](urban_nav_core::Archive& items, Input& input) {
     std::size_t kind = input.index();
     items(kind);
-    items.require(kind < std::variant_size_v<Input>, "no such message");
+    items.require(kind < std::variant_size_v<Input>, "a kind of message is unknown");
     if (items.isReading() && kind == 1) input = sensor_msgs::CompressedImageConstPtr();
     if (items.isReading() && kind == 2) input = MotionInput();
     if (auto* raw = std::get_if<sensor_msgs::ImageConstPtr>(&input)) archiveMessage(items, *raw);

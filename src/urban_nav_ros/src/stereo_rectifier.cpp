@@ -26,7 +26,7 @@ std_msgs::Header makeHeader(const ImageInput& image) {
   return header;
 }
 
-/// Makes a message of pixels that are in `rectified` or elsewhere.
+/// Returns a message with the pixels of the view, which may be those of `rectified`.
 sensor_msgs::ImageConstPtr toMono8(const std_msgs::Header& header, const ImageView& view,
                                    std::vector<std::uint8_t>&& rectified) {
   auto message = boost::make_shared<sensor_msgs::Image>();
@@ -51,7 +51,7 @@ sensor_msgs::ImageConstPtr toMono8(const std_msgs::Header& header, const ImageVi
 void StereoRectifier::handle(const InfoInput& info) {
   sensor_msgs::CameraInfoConstPtr& known = info.side == Side::Left ? left_info_ : right_info_;
   if (known && isSameCalibration(*known, *info.message)) return;
-  // A new left camera does not match the old right one: its camera_info must arrive again.
+  // A new left camera does not match the old right one: wait for the other camera_info.
   if (known) {
     (info.side == Side::Left ? right_info_ : left_info_).reset();
     judge_.reset();

@@ -9,7 +9,7 @@ using urban_nav_core::Table;
 
 StereoRectifyParameters::StereoRectifyParameters() { stereoRectifyTable().setDefaults(*this); }
 
-// clang-format would give each of the columns a line.
+// clang-format would put each column on its own line.
 // clang-format off
 const Table<StereoRectifyParameters>& stereoRectifyTable() {
   using P = StereoRectifyParameters;
@@ -17,13 +17,13 @@ const Table<StereoRectifyParameters>& stereoRectifyTable() {
       "",
       {
           {"image_type", &P::image_type, "", "auto", false, false, {"auto", "raw", "rectified"},
-           "Whether images are rectified by camera_info or were before they arrived; auto: the rows of the first pairs "
-           "decide, and where they do not, rectified if the topic's name contains `rect`.",
+           "Whether images are raw, to be rectified by camera_info, or rectified; auto: determined from the rows of "
+           "the first pairs, else rectified if the topic name contains `rect`.",
            "image_proc"},
           {"compressed", &P::compressed, "", false, false, true, {},
            "Whether the image topics are sensor_msgs/CompressedImage.", "docs/architecture.md"},
           {"queue_size", &P::queue_size, "messages", 200, 2, 1000000, {},
-           "Messages that may wait; beyond that the oldest is dropped and counted.", "docs/architecture.md"},
+           "Largest number of waiting messages; beyond it the oldest is dropped and counted.", "docs/architecture.md"},
       });
   return rows;
 }

@@ -37,15 +37,15 @@ void StereoSessions::Counts::addTo(urban_nav_live::StageReport& report) const {
   report.add("right images missing", right_missing);
   report.add("images damaged", damaged);
   report.add("images rectified", rectified);
-  report.add("pairs that never came", gaps);
-  report.fault_counts.push_back({"pairs never came", gaps, pairs + gaps,
-                                 "the camera, its connection or the recording leaves them out; check its driver, the "
+  report.add("missing pairs", gaps);
+  report.fault_counts.push_back({"pairs were missing", gaps, pairs + gaps,
+                                 "the camera, its connection or the recording loses them; check its driver, the "
                                  "load of this computer and the network"});
   report.fault_counts.push_back({"pairs lacked an image", left_missing + right_missing, pairs,
-                                 "one camera loses images, they come later than max_lateness, or the two are stamped "
+                                 "one camera loses images, they arrive later than max_lateness, or the two are stamped "
                                  "at different times: set input/right_delay, which stereo_rectify reads, or a wider "
                                  "sync_tolerance (`urban_nav doctor` on a recording states which)"});
-  report.fault_counts.push_back({"images came too late", late, 2 * pairs, "raise max_lateness, or lower the load"});
+  report.fault_counts.push_back({"images arrived too late", late, 2 * pairs, "raise max_lateness, or lower the load"});
   report.fault_counts.push_back(
       {"images were damaged", damaged, 2 * pairs, "check the encoding, the size in camera_info and the connection"});
 }
@@ -74,9 +74,9 @@ void StereoSessions::followPlaces() {
     return known && (!then || !isApprox(*known, *then, 1e-9));
   };
   if (differs(now.T_base_camera, places_.T_base_camera))
-    end(places_.T_base_camera ? "the camera is mounted elsewhere" : "the place of the camera is known now");
+    end(places_.T_base_camera ? "the mounting of the camera changed" : "the mounting of the camera was received");
   else if (differs(now.T_base_imu, places_.T_base_imu))
-    end(places_.T_base_imu ? "the gyroscope is mounted elsewhere" : "the place of the gyroscope is known now");
+    end(places_.T_base_imu ? "the mounting of the gyroscope changed" : "the mounting of the gyroscope was received");
 }
 
 void StereoSessions::idle() {
@@ -87,7 +87,7 @@ void StereoSessions::handleInfo(const InfoInput& info) {
   sensor_msgs::CameraInfoConstPtr& known = info.side == Side::Left ? left_info_ : right_info_;
   if (known && isSameCalibration(*known, *info.message)) return;
   if (feed_) end("the calibration changed");
-  // A new left camera does not match the old right one: its camera_info must arrive again.
+  // A new left camera does not match the old right one: wait for the other camera_info.
   if (known) {
     (info.side == Side::Left ? right_info_ : left_info_).reset();
     judge_.reset();
@@ -126,8 +126,7 @@ void StereoSessions::handleSensor(const Message& message) {
   wait(message);
 }
 
-// Motion sensors are faster than cameras: images alone are counted, and what came before the oldest of them is of no
-// use.
+// Only images are counted, because motion sensors have higher rates; messages before the oldest image are dropped.
 void StereoSessions::wait(const Message& message) {
   constexpr std::size_t kMostPerImage = 50;
   const auto isImage = [](const Message& each) { return std::holds_alternative<ImageInput>(each); };
@@ -187,12 +186,12 @@ void StereoSessions::begin(bool are_rectified) {
   camera.T_base_left = T_base_camera.value_or(opticalInBody()) * calibration->T_optical_rectified();
   camera.mounting = T_base_camera ? "camera at tf " + options_.base_frame + " -> " + camera.frame
                                   : "no static tf from " + options_.base_frame + " to " + camera.frame + ": " +
-                                        options_.base_frame + " is taken to be at the left camera (REP-103 axes)";
+                                        options_.base_frame + " is assumed at the left camera (REP-103 axes)";
   place_fault_ = T_base_camera ? "" : camera.mounting;
   const auto& T_base_imu = places_.T_base_imu;
   if (options_.motion.gyroscope && !T_base_imu)
     place_fault_ += std::string(place_fault_.empty() ? "" : "; ") + "no static tf from " + options_.base_frame +
-                    " to " + imu_frame_ + ": the axes of the gyroscope are taken to be those of the robot";
+                    " to " + imu_frame_ + ": the axes of the gyroscope are assumed to be those of the robot";
   if (listener_.began) listener_.began(camera);
   wheels_.emplace(options_.wheel_noise);
   gyroscope_.emplace(options_.gyro_noise, T_base_imu ? T_base_imu->R() : urban_nav_core::Matrix3d::Identity());
@@ -221,7 +220,7 @@ void StereoSessions::end(const std::string& why, bool deliver) {
     deliverPairs();
   }
   finished_ = counts();
-  finished_.dropped -= rounds_.dropped();  // which counts() adds
+  finished_.dropped -= rounds_.dropped();  // added by counts()
   feed_.reset();
   gaps_.restart();
   place_fault_.clear();

@@ -22,7 +22,7 @@ sensor_msgs::Imu imu(int i, const std::string& frame = "imu_link") {
   return message;
 }
 
-/// Upside: x of the device is up.
+/// The device is mounted with its x axis up.
 tf2_msgs::TFMessage place() {
   const Pose T(urban_nav_core::expSo3(Eigen::Vector3d(0.0, -M_PI_2, 0.0)), Eigen::Vector3d(0.1, 0.2, 0.3));
   tf2_msgs::TFMessage message;

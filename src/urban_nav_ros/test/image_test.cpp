@@ -36,8 +36,8 @@ TEST(ToGrey, WeighsColoursByTheirNames) {
 }
 
 TEST(ToGrey, KnowsWhichPixelOfAMosaicIsRed) {
-  // Red light alone: the red pixels are bright, the others dark. Grey is 0.299 red wherever the pattern is read
-  // rightly.
+  // Pure red light: the red pixels are bright, the others dark. Grey is 0.299 red if the pattern is interpreted
+  // correctly.
   const auto mosaic = [](int red_u, int red_v) {
     std::vector<std::uint8_t> data(16 * 16, 0);
     for (int v = red_v; v < 16; v += 2) {
@@ -106,7 +106,7 @@ TEST(ToGrey, DecodesWhatIsCompressed) {
 }
 
 TEST(ToGrey, DemosaicsWhatWasCompressedAsAMosaic) {
-  cv::Mat mosaic(16, 16, CV_8UC1, cv::Scalar(0));  // red light alone
+  cv::Mat mosaic(16, 16, CV_8UC1, cv::Scalar(0));  // pure red light
   for (int v = 0; v < 16; v += 2)
     for (int u = 0; u < 16; u += 2) mosaic.at<std::uint8_t>(v, u) = 200;
   sensor_msgs::CompressedImage compressed;

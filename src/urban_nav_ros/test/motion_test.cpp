@@ -72,7 +72,7 @@ TEST(WheelMotion, StampsThatDoNotAdvanceAndPosesThatAreNoneGiveNothing) {
 }
 
 TEST(GyroMotion, IntegratesTheMeanRateInBaseLink) {
-  // The device looks to the left: its x is base_link's y.
+  // The device faces left: its x axis is base_link's y.
   Matrix3d R_base_imu;
   R_base_imu << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   GyroMotion gyro(0.1, R_base_imu);

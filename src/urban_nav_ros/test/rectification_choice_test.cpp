@@ -24,7 +24,7 @@ using urban_nav_core::StampNs;
 
 constexpr StampNs kFrameInterval = 50'000'000, kFirstStamp = 1'600'000'000'000'000'000;
 
-/// Calibration of a rendered room's cameras (240x180 px, f 190 px), whose lenses differ.
+/// Calibration of a rendered room's cameras (240x180 px, f 190 px) with different distortions.
 CameraInfo lensInfo(bool is_right) {
   CameraInfo info;
   info.width = 240;
@@ -39,7 +39,7 @@ CameraInfo lensInfo(bool is_right) {
   return info;
 }
 
-/// Returns the image that a lens makes of what an ideal camera sees.
+/// Returns the distorted image of an ideal camera's image.
 cv::Mat distort(const cv::Mat& ideal, const CameraInfo& info) {
   cv::Mat map(ideal.rows, ideal.cols, CV_32FC2), image;
   for (int v = 0; v < ideal.rows; ++v)
@@ -115,7 +115,7 @@ TEST_F(RectificationTest, FewPairsOrBlankImagesDecideNothing) {
   EXPECT_FALSE(choice.isRectified(false));
 }
 
-/// Sessions of a live camera, and how many pairs they had seen when they began.
+/// Sessions of a live camera, with the number of pairs received before each.
 struct LiveCamera {
   explicit LiveCamera(bool named_as_rectified) {
     StereoSessions::Options options;

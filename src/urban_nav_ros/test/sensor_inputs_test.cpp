@@ -32,7 +32,7 @@ SensorInputs withSettings(const std::vector<CorrectionSetting>& settings) {
   return SensorInputs(toCorrections(parameters));
 }
 
-/// A half turn at 5 to 8 m, whose ranges are multiplied by `unit`.
+/// Half a revolution at 5 to 8 m, with ranges multiplied by `unit`.
 sensor_msgs::LaserScanConstPtr scan(float unit) {
   const auto message = boost::make_shared<sensor_msgs::LaserScan>();
   message->header.stamp = toRosTime(kStamp);
@@ -75,7 +75,7 @@ TEST(SensorInputs, TheParameterThatAFaultNamesRepairsTheLaser) {
   for (std::size_t i = 0; i < sound->ranges.size(); ++i) EXPECT_NEAR(repaired->ranges[i], sound->ranges[i], 1e-5);
   EXPECT_NEAR(repaired->range_max, 80.0, 1e-3);
   EXPECT_NEAR(repaired->time_step, sound->time_step, 1e-9);
-  // The other laser is read by its own parameters.
+  // The other laser has its own parameters.
   EXPECT_EQ(after.correct(topics::kLaserRight, scan(1000.0F))->ranges[0], scan(1000.0F)->ranges[0]);
   EXPECT_EQ(after.faults().size(), 1U);
 }
@@ -101,7 +101,7 @@ TEST(SensorInputs, DelaysAndScalesApplyToTheTopicOfTheirSensorAlone) {
   const auto corrected = inputs.correct(topics::kImu, sensor_msgs::ImuConstPtr(imu));
   EXPECT_EQ(toStampNs(corrected->header.stamp), kStamp - 2'000'000'000);
   EXPECT_DOUBLE_EQ(corrected->angular_velocity.z, 0.1);
-  EXPECT_DOUBLE_EQ(imu->angular_velocity.z, 0.2);  // other subscribers of the process share it
+  EXPECT_DOUBLE_EQ(imu->angular_velocity.z, 0.2);  // the message is shared with other subscribers of the process
 
   const auto odometry = boost::make_shared<nav_msgs::Odometry>();
   odometry->header.stamp = toRosTime(kStamp);

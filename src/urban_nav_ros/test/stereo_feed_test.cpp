@@ -131,7 +131,7 @@ TEST(StereoFeed, RawImagesAreRectified) {
     const std::vector<DecodedPair> pairs = drain(feed);
     ASSERT_EQ(pairs.size(), 1U);
     const int seen = pairs[0].assembled.pair.left.at(87, 35);
-    // A ray at x = (87 - 47.5) / 80 is seen at x (1 - 0.2 x^2) in the raw image.
+    // A ray at x = (87 - 47.5) / 80 is at x (1 - 0.2 x^2) in the raw image.
     const double x = (87 - 47.5) / 80.0, raw = 47.5 + 80.0 * x * (1.0 - 0.2 * x * x);
     EXPECT_NEAR(seen, rectified_already ? 2 * 87 : 2 * raw, 1.5);
   }
@@ -206,7 +206,7 @@ TEST(CameraInfo, AProjectionAloneIsOfARectifiedCamera) {
   EXPECT_EQ(info.K, info.P.leftCols<3>());
 }
 
-/// What came out of a feed: stamps, pixels, inputs, faults.
+/// Output of a feed: stamps, pixels, inputs, faults.
 std::string toText(const std::vector<DecodedPair>& pairs) {
   std::string text;
   const auto add = [&](const urban_nav_core::ImageView& view) {
@@ -225,7 +225,7 @@ std::string toText(const std::vector<DecodedPair>& pairs) {
   return text;
 }
 
-// Cut between any two messages and gone on with in another object: pairs, faults and counts are those of one object.
+// The feed is archived between any two messages and continued in another object: results are those of one object.
 TEST(StereoFeed, GoesOnFromItsState) {
   StereoFeed::Options options;
   options.motion.wheels = true;

@@ -69,7 +69,7 @@ ImageInput packedImage(Side side, StampNs stamp) {
   return {side, sensor_msgs::CompressedImageConstPtr(message), stamp};
 }
 
-/// A rectifier that keeps what it publishes.
+/// Rectifier that keeps the published images.
 struct Rectified {
   explicit Rectified(bool rectified = false, int queue = 10, StampNs right_delay = 0) {
     StereoRectifier::Options options;
@@ -94,7 +94,7 @@ struct Rectified {
   std::vector<std::string> faults;
 };
 
-/// The pixels of the same images in a stereo feed, as the offline run has them.
+/// Returns the pixels of the same images from a stereo feed, as in the offline run.
 std::vector<std::uint8_t> fedLeft(const ImageInput& left, const ImageInput& right, double distortion) {
   StereoFeed feed(StereoFeed::Options(),
                   std::make_shared<StereoCalibration>(toCameraInfo(rawInfo(Side::Left, distortion)),

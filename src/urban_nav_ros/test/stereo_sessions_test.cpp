@@ -19,7 +19,7 @@ constexpr StampNs kSessionMs = 1'000'000, kSessionStart = 1'600'000'000'000'000'
 
 urban_nav_core::StereoCamera sessionCamera(double baseline = 0.12) {
   urban_nav_core::StereoCamera camera;
-  const double focal_length = 80.0 + baseline;  // in both camera_info, whereas the baseline is in the right one alone
+  const double focal_length = 80.0 + baseline;  // in both camera_info, whereas only the right one has the baseline
   camera.left = {focal_length, focal_length, 47.5, 35.5, 96, 72};
   camera.baseline = baseline;
   return camera;
@@ -44,7 +44,7 @@ tf2_msgs::TFMessageConstPtr mountingAt(double height) {
   return message;
 }
 
-/// Sessions that keep their events.
+/// Sessions that record their events.
 struct Kept {
   explicit Kept(double tf_timeout = 0.0, urban_nav_core::MotionChoice motion = {}) {
     options.tf_timeout = tf_timeout;
@@ -115,7 +115,7 @@ TEST(StereoSessions, AMountingThatComesLateOrChangesBeginsTheNextSession) {
   kept.show(kSessionStart);
   EXPECT_NE(kept.sessions->placeFault().find("no static tf from base_link to left"), std::string::npos);
   kept.sessions->handle(mountingAt(1.5));
-  EXPECT_EQ(kept.ends, std::vector<std::string>{"the place of the camera is known now"});
+  EXPECT_EQ(kept.ends, std::vector<std::string>{"the mounting of the camera was received"});
   kept.show(kSessionStart + 50 * kSessionMs);
   ASSERT_EQ(kept.cameras.size(), 2U);
   EXPECT_TRUE(kept.cameras[1].is_mounting_known);
@@ -124,7 +124,7 @@ TEST(StereoSessions, AMountingThatComesLateOrChangesBeginsTheNextSession) {
   kept.sessions->handle(mountingAt(1.5));
   EXPECT_EQ(kept.ends.size(), 1U) << "the same";
   kept.sessions->handle(mountingAt(1.6));
-  EXPECT_EQ(kept.ends.back(), "the camera is mounted elsewhere");
+  EXPECT_EQ(kept.ends.back(), "the mounting of the camera changed");
   kept.show(kSessionStart + 100 * kSessionMs);
   EXPECT_EQ(kept.cameras.back().T_base_left.t().z(), 1.6);
   EXPECT_EQ(kept.stamps.size(), 3U) << "no pair is lost";

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kPoints = 800;
 
-/// A turn of 0.1 s from the stamp on, with times in us.
+/// Revolution of 0.1 s from the stamp on, with times in us.
 sensor_msgs::PointCloud2ConstPtr cloudAt(int i, float height = 0.2F) {
   auto cloud = boost::make_shared<sensor_msgs::PointCloud2>();
   cloud->header.stamp = ros::Time(1'600'000'000, static_cast<std::uint32_t>(100'000'000 * i));

@@ -12,7 +12,7 @@ namespace urban_nav_store {
 
 namespace {
 
-constexpr std::size_t kDigits = 16;  // of a digest
+constexpr std::size_t kDigits = 16;  // digits of a digest
 
 std::string print(const Value& value) {
   switch (value.type) {

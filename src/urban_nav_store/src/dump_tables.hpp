@@ -7,8 +7,8 @@
 
 namespace urban_nav_store {
 
-/// dump() of what a connection sees, verified row by row and session by session, whether or not the file was checked
-/// before.
+/// Returns the dump() of a connection's file, verified row by row and session by session even if the file has been
+/// checked before.
 std::string dumpTables(Connection& connection);
 
 }  // namespace urban_nav_store

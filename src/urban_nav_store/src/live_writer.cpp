@@ -81,8 +81,8 @@ class LiveWriter::Implementation {
     }
   }
 
-  /// Carries out a batch and commits it. What the store refuses is taken out of the batch, and the rest begun anew.
-  /// Says what went wrong; kept_ tells whether the batch has still to be committed.
+  /// Executes a batch and commits it. Writes refused by the store are removed and the rest is repeated. Returns the
+  /// fault; kept_ is set if the batch is still to be committed.
   std::string commit(std::deque<Write>& batch, std::int64_t& refused) {
     std::string fault;
     while (true) {
@@ -92,7 +92,7 @@ class LiveWriter::Implementation {
         store_.commit();
         kept_ = false;
         return fault;
-      } catch (const DataError& error) {  // the disk: the batch may go through later
+      } catch (const DataError& error) {  // error of the disk: the batch may succeed later
         takeBack();
         kept_ = true;
         return error.what();
@@ -112,13 +112,13 @@ class LiveWriter::Implementation {
   void takeBack() {
     try {
       store_.rollback();
-    } catch (const std::exception&) {  // of a transaction that the error has ended already
+    } catch (const std::exception&) {  // of a transaction that the error has already ended
     }
   }
 
   Store store_;
   const Options options_;
-  mutable std::mutex mutex_;  // guards all below but the thread and kept_, which the thread alone uses
+  mutable std::mutex mutex_;  // guards all members below except the thread and kept_, which only the thread uses
   std::condition_variable wake_, done_;
   std::deque<Write> waiting_;
   std::size_t at_work_ = 0;

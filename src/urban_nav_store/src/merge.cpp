@@ -28,10 +28,10 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr std::size_t kNamed = 5;                                      // contradictions that an error spells out
+constexpr std::size_t kNamed = 5;                                      // contradictions listed in an error
 constexpr const char* kMeasuring[] = {"loop_metric", "laser_mapper"};  // stages that measure closures
 
-/// Orders the keys of rows that are to be dropped.
+/// Orders keys of rows to be dropped.
 struct LessByText {
   bool operator()(const std::pair<const Table*, Row>& a, const std::pair<const Table*, Row>& b) const {
     return text(a) < text(b);
@@ -43,10 +43,10 @@ struct LessByText {
   }
 };
 
-/// Puts the rows of one source after the other into a target.
+/// Adds the rows of one source after the other to a target.
 class Merger {
  public:
-  /// `journals`: of edits, and the numbers of edges, are taken as other rows are; else they are left to JournalMerge.
+  /// `journals`: merge edits and numbers of edges like other rows; otherwise JournalMerge does.
   Merger(Connection& target, MergeContent content, bool journals, RowFilter takes = {})
       : target_(target), content_(content), journals_(journals), takes_(std::move(takes)) {}
 
@@ -57,11 +57,11 @@ class Merger {
       if (table->since <= version && isWanted(*table)) addTable(source, schema::atVersion(*table, version), *table);
   }
 
-  /// DataError where rows contradict each other.
+  /// Throws DataError if rows contradict each other.
   MergeResult finish() {
     if (contradictions_ > 0) {
       throw DataError(target_.name(),
-                      "is not made: " + std::to_string(contradictions_) + " rows contradict each other; " + named_,
+                      "is not written: " + std::to_string(contradictions_) + " rows contradict each other; " + named_,
                       "stores of other sessions, or of other parts of the same one");
     }
     for (const auto& [table, keys] : dropped_) drop(*table, keys);
@@ -74,7 +74,7 @@ class Merger {
     return content_ == MergeContent::All || !table.of_graph || &table == &declaredTable<EvidenceRow>();
   }
 
-  /// `stored`: the table as the source has it.
+  /// `stored`: the table in the source's version.
   void addTable(Connection& source, const Table& stored, const Table& table) {
     RowReader reader(source, stored, "");
     while (reader.next()) {
@@ -85,7 +85,7 @@ class Merger {
     verifyTally(source, stored);
   }
 
-  /// Resets in an edge what the relaxation has decided that stored it: another one decides anew.
+  /// Resets the results of the relaxation stored in an edge, which another relaxation determines again.
   static void forgetVerdict(const Table& table, Row& row) {
     if (&table != &declaredTable<EdgeRow>()) return;
     row[indexOf(table, "weight")].real = Edge().weight;
@@ -97,7 +97,7 @@ class Merger {
     return !takes_ || takes_(table, Row(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(table.keys)));
   }
 
-  /// Returns whether a row is an edge, or evidence of one, that a relaxation of all sessions finds anew.
+  /// Returns whether a row is an edge, or evidence of one, that a joint relaxation of all sessions measures again.
   static bool isClosure(const Table& table, const Row& row) {
     if (&table != &declaredTable<EdgeRow>() && &table != &declaredTable<EvidenceRow>()) return false;
     const std::optional<EdgeKind> kind = parseEdgeKind(row[indexOf(table, "kind")].bytes);
@@ -127,8 +127,8 @@ class Merger {
     dropped_.emplace(&table, Row(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(table.keys) - 1));
   }
 
-  /// Returns whether a row describes the run that read a session, not the session: the path of its input, options and
-  /// parameters. What they change is in the measurements.
+  /// Returns whether a row describes the run that read a session rather than the session: input path, options and
+  /// parameters. Their effect is contained in the measurements.
   bool isOfRun(const Table& table, const Row& row) const {
     if (&table == &declaredTable<ParameterRow>()) return true;
     if (&table == &declaredTable<EvidenceRow>()) return content_ == MergeContent::Sessions;
@@ -150,7 +150,7 @@ class Merger {
     if (there[revision].integer < row[revision].integer) write(table, row);
   }
 
-  /// The last column is a flag: one computer's part of a session may be complete and another's not.
+  /// Merges rows whose last column is a flag: one computer's part of a session may be complete and another's not.
   void addPart(const Table& table, const Row& there, const Row& row) {
     Row both = row;
     both.back().integer = std::min(there.back().integer, row.back().integer);
@@ -161,7 +161,7 @@ class Merger {
     ++result_.identical;
   }
 
-  /// Removes the rows with these first keys.
+  /// Removes the rows with these leading keys.
   void drop(const Table& table, const Row& keys) {
     for (const char* what : {"SELECT COUNT(*)", "DELETE"}) {
       Statement statement =
@@ -210,23 +210,23 @@ class Merger {
   Connection& target_;
   const MergeContent content_;
   const bool journals_;
-  const RowFilter takes_;  // empty: all
+  const RowFilter takes_;  // empty: all rows
   std::string source_, named_;
   std::int64_t contradictions_ = 0;
-  /// Rows of which different ones were found: the table, and all keys but the last.
+  /// Rows with different content in two sources: the table, and all keys but the last.
   std::set<std::pair<const Table*, Row>, LessByText> dropped_;
   MergeResult result_;
 };
 
-/// Gives a finished file the name of the target. A store that stands there gives way: its log must be in it before
-/// another file takes its name, or it would be taken for that one's.
+/// Renames a finished file to the target. The log of an existing store must be checkpointed before another file takes
+/// its name; otherwise it would be applied to that file.
 void replace(const std::string& path, urban_nav_core::PartialFile& partial) {
   if (fileKind(path) == FileKind::Store) Store(path, Access::Write).close();
   const WriterLock lock(path);
   refuseOtherFiles(path);
   std::error_code error;
   if (fs::file_size(path + "-wal", error) > 0 && !error)
-    throw UserError(path, "is being used by another program", "to replace it when no program uses it");
+    throw UserError(path, "is in use by another program", "a target that no program uses");
   partial.commit();
 }
 
@@ -242,7 +242,7 @@ MergeResult merge(const std::vector<std::string>& sources, const std::string& gi
   const std::string path = resolved(given);
   refuseOtherFiles(path);
   urban_nav_core::PartialFile partial(path, ".merging");
-  ::unlink(partial.path().c_str());  // of a process that was killed
+  ::unlink(partial.path().c_str());  // left by a killed process
   MergeResult result;
   {
     Store target(partial.path(), Access::Write);

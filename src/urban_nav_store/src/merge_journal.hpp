@@ -9,9 +9,9 @@
 
 namespace urban_nav_store {
 
-/// Makes one journal of edits of those of several stores, and one set of numbers of edges. Numbers stay as they are
-/// unless two stores use one for different things; all are then given anew, in an order that depends on their content
-/// alone, and what was undone can no longer be redone.
+/// Merges the edits and the numbers of edges of several stores. Numbers are kept unless two stores use one for
+/// different items; then all are assigned anew, in an order that depends only on their content, and undone edits can no
+/// longer be redone.
 class JournalMerge {
  public:
   void add(Store& source);

@@ -41,8 +41,8 @@ ReleaseHead readReleaseHead(Store& release) {
       }
     }
   if (head.digest.empty() || head.version < 1)
-    throw urban_nav_core::DataError(release.path(), "is damaged: it does not state which release it is",
-                                    "a release of urban_nav release");
+    throw urban_nav_core::DataError(release.path(), "is damaged: its release identity is missing",
+                                    "a file written by urban_nav release");
   return head;
 }
 
@@ -63,7 +63,7 @@ ReleaseHead freeze(const std::string& store, const SessionId& first, ReleaseHead
     opened.close();
   }
   urban_nav_core::PartialFile partial(resolved(path), ".freezing");
-  ::unlink(partial.path().c_str());  // of a process that was killed
+  ::unlink(partial.path().c_str());  // left by a killed process
   {
     Connection connection(store, Connection::Mode::Write);
     Statement copy = connection.prepare("VACUUM INTO ?");

@@ -19,8 +19,8 @@ using urban_nav_core::UserError;
 
 namespace {
 
-/// Files up to this size are checked throughout when they are opened, some 0.3 s; in larger ones damage is found where
-/// it is read.
+/// Files up to this size are completely checked when opened, which takes about 0.3 s; in larger files damage is
+/// detected when the data are read.
 constexpr std::uintmax_t kCheckedThroughout = std::uintmax_t{64} << 20;
 
 std::uintmax_t toSize(const std::string& path) {
@@ -29,19 +29,19 @@ std::uintmax_t toSize(const std::string& path) {
   return error ? 0 : size;
 }
 
-/// What a store whose file is gone has left beside it must not be taken for a part of the next one.
+/// Removes auxiliary files left by a missing store, which would be applied to the next one.
 void removeBeside(const std::string& path) {
   for (const char* suffix : {"-wal", "-shm", "-journal"}) ::unlink((path + suffix).c_str());
 }
 
-/// An empty store that is on disk under its name whole, or not at all.
+/// Creates an empty store atomically.
 void make(const std::string& path) {
   removeBeside(path);
   urban_nav_core::PartialFile partial(path, ".part");
-  ::unlink(partial.path().c_str());  // of a process that was killed here
+  ::unlink(partial.path().c_str());  // left by a process killed here
   removeBeside(partial.path());
   Connection connection(partial.path(), Connection::Mode::Create, path);
-  connection.execute("PRAGMA auto_vacuum=INCREMENTAL");  // before there are tables, or never
+  connection.execute("PRAGMA auto_vacuum=INCREMENTAL");  // has an effect only before tables exist
   schema::create(connection);
   connection.execute("PRAGMA journal_mode=WAL");
   connection.close();
@@ -51,7 +51,7 @@ void make(const std::string& path) {
 
 Connection::Mode modeFor(const std::string& path, Access access) {
   if (access == Access::Write) return Connection::Mode::Write;
-  // Without a log and a writer the file is all there is, and nothing needs to be made beside it to read it.
+  // Without a log and a writer the file is complete, and can be read without creating auxiliary files.
   return toSize(path + "-wal") > 0 || WriterLock::isHeld(path) ? Connection::Mode::Read : Connection::Mode::ReadFrozen;
 }
 
@@ -67,7 +67,7 @@ const std::string& prepared(const std::string& path, Access access, std::optiona
     lock.emplace(path);
     if (fileKind(path) == FileKind::Absent) make(path);
   } else if (fileKind(path) == FileKind::Absent) {
-    throw UserError(path, fs::exists(path) ? "is empty" : "is not there", "a session store of urban_nav");
+    throw UserError(path, fs::exists(path) ? "is empty" : "does not exist", "a session store of urban_nav");
   }
   refuseOtherFiles(path, access == Access::Frozen ? Releases::Allowed : Releases::Refused);
   return path;
@@ -119,7 +119,7 @@ void Store::Implementation::rollback() {
 void Store::Implementation::shrink() {
   commit();
   Statement statement = connection.prepare("PRAGMA incremental_vacuum");
-  while (statement.step()) continue;  // a page each time
+  while (statement.step()) continue;  // one page each
 }
 
 void Store::Implementation::close() {

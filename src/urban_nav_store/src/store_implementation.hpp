@@ -16,7 +16,7 @@
 
 namespace urban_nav_store {
 
-/// The parts of a Store: the connection, and the tables by their interfaces.
+/// Components of a Store: the connection, and the interfaces of its tables.
 class Store::Implementation {
  public:
   Implementation(const std::string& path, Access access);
@@ -25,11 +25,11 @@ class Store::Implementation {
   void commit();
   void rollback();
   void shrink();
-  /// Writes the rows that stores hold in memory, and releases them.
+  /// Writes and releases the rows buffered by the stores.
   void settle();
 
  private:
-  std::string path_;                // before the connection: it is opened by it
+  std::string path_;                // before the connection, which is opened with it
   std::optional<WriterLock> lock_;  // outlives the connection
 
  public:
@@ -43,7 +43,7 @@ class Store::Implementation {
   SqliteStageStates states;
 
  private:
-  std::optional<Snapshot> snapshot_;  // before the connection is closed, it ends
+  std::optional<Snapshot> snapshot_;  // ends before the connection is closed
 };
 
 }  // namespace urban_nav_store

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// kill -9 at any moment: whatever commit() had returned from is there, and nothing of what it had not.
+// kill -9 at any moment: everything committed before is present, and nothing else.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -18,7 +18,7 @@ namespace {
 using testing::Drawn;
 using testing::Folder;
 
-/// The n-th transaction: the same whoever makes it.
+/// The n-th transaction, identical in every process.
 void writeBatch(Store& store, int batch) {
   Drawn drawn(static_cast<std::uint32_t>(batch));
   const SessionId session = "crash";
@@ -76,7 +76,7 @@ TEST(Crash, WhatWasCommittedIsThere) {
     EXPECT_TRUE(WIFSIGNALED(status));
     while (::read(pipes[0], &number, sizeof number) == static_cast<ssize_t>(sizeof number)) reported = number;
     ::close(pipes[0]);
-    if (!std::filesystem::exists(path)) continue;  // killed before the file had its name
+    if (!std::filesystem::exists(path)) continue;  // killed before the file was renamed
     int there = 0;
     std::string read;
     {
@@ -90,7 +90,7 @@ TEST(Crash, WhatWasCommittedIsThere) {
     for (; written < there; ++written) writeBatch(expected, written);
     expected.commit();
     EXPECT_TRUE(read == dump(expected));
-    Store store(path, Access::Write);  // the log goes into the file
+    Store store(path, Access::Write);  // checkpoints the log
     EXPECT_TRUE(dump(store) == read);
   }
   EXPECT_GT(written, 10) << "else the test says nothing";

@@ -36,7 +36,7 @@ TEST(FullDisk, IsNamedAndLosesNothingThatWasCommitted) {
       store.rollback();
       EXPECT_TRUE(dump(store) == committed);
     }
-    fill(store, 1000, 20);  // there is room again
+    fill(store, 1000, 20);  // space is available again
     store.commit();
     committed = dump(store);
     store.close();

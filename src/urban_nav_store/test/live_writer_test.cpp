@@ -34,7 +34,7 @@ TEST(LiveWriter, CommitsWhatWasPostedInItsOrder) {
   {
     LiveWriter writer(Store(folder.file("s.db"), Access::Write), {1000, std::chrono::milliseconds(1)});
     for (int i = 0; i < 500; ++i) {
-      // Twice the same stamp: the later one stands.
+      // Two writes with the same stamp: the later one is kept.
       EXPECT_TRUE(writer.post(nodeAt(i)));
       EXPECT_TRUE(writer.post([i](Store& store) { store.inputs().append("live", {"stereo", i, true}); }));
       nodeAt(i)(expected);

@@ -158,9 +158,9 @@ TEST_F(Merge, TakesTheLaterRevisionOfTheGraph) {
 TEST_F(Merge, RefusesWhatIsNoStore) {
   const std::string a = make("a.db", [](Store& store) { fill(store, 1, 5); });
   writeFile(folder.file("text"), "words");
-  expectError([&] { merge({a, folder.file("text")}, out); }, folder.file("text"), "is no session store");
-  expectError([&] { merge({a, folder.file("none")}, out); }, folder.file("none"), "is not there");
-  expectError([&] { merge({a}, folder.file("text")); }, folder.file("text"), "is no session store");
+  expectError([&] { merge({a, folder.file("text")}, out); }, folder.file("text"), "is not a session store");
+  expectError([&] { merge({a, folder.file("none")}, out); }, folder.file("none"), "does not exist");
+  expectError([&] { merge({a}, folder.file("text")); }, folder.file("text"), "is not a session store");
   std::string damaged = readFile(a);
   damaged.replace(5 * 4096, 4096, 4096, '\xff');
   writeFile(folder.file("damaged.db"), damaged);

@@ -18,7 +18,7 @@ using testing::readFile;
 
 class Release : public ::testing::Test {
  protected:
-  /// Makes a store, and a release of it.
+  /// Creates a store, and a release of it.
   ReleaseHead make(const std::string& name, std::uint32_t seed, ReleaseHead head = {}) {
     {
       Store store(folder.file("source.db"), Access::Write);

@@ -81,7 +81,7 @@ TEST(Store, ReadingChangesNoByte) {
   {
     Store store(path, Access::Read);
     dump(store);
-    expectError([&] { fill(store, 2, 3); }, path, "was opened for reading alone");
+    expectError([&] { fill(store, 2, 3); }, path, "was opened for reading only");
     EXPECT_EQ(folder.files(), 1U);
   }
   EXPECT_EQ(readFile(path), bytes);
@@ -143,14 +143,14 @@ TEST(Store, LeavesOtherFilesAlone) {
   }
   for (const Access access : {Access::Read, Access::Write}) {
     for (const auto& [path, words] :
-         {std::pair{text, "is no session store"}, {other, "is another program's"}, {newer, "newer urban_nav"}}) {
+         {std::pair{text, "is not a session store"}, {other, "is another program's"}, {newer, "newer urban_nav"}}) {
       const std::string bytes = readFile(path);
       expectError([&, path = path] { Store(path, access); }, path, words);
       EXPECT_EQ(readFile(path), bytes);
     }
-    expectError([&] { Store(folder.file(""), access); }, folder.file(""), "is no session store");
+    expectError([&] { Store(folder.file(""), access); }, folder.file(""), "is not a session store");
   }
-  for (const std::string& path : {text, other}) expectError([&] { removeStore(path); }, path, "left as it is");
+  for (const std::string& path : {text, other}) expectError([&] { removeStore(path); }, path, "was not changed");
   EXPECT_TRUE(isStore(newer));
   EXPECT_FALSE(isStore(other));
   EXPECT_FALSE(isStore(text));
@@ -162,8 +162,8 @@ TEST(Store, SaysWhereItCannotBe) {
   const Folder folder;
   const std::string nowhere = folder.file("no/such/folder/s.db"), absent = folder.file("absent.db");
   expectError([&] { Store(nowhere, Access::Write); }, nowhere, "cannot be written");
-  expectError([&] { Store(nowhere, Access::Read); }, nowhere, "is not there");
-  expectError([&] { Store(absent, Access::Read); }, absent, "is not there");
+  expectError([&] { Store(nowhere, Access::Read); }, nowhere, "does not exist");
+  expectError([&] { Store(absent, Access::Read); }, absent, "does not exist");
   expectError([&] { Store("/proc/urban_nav.db", Access::Write); }, "/proc/urban_nav.db", "cannot be written");
   EXPECT_EQ(folder.files(), 0U);
 }

@@ -106,8 +106,8 @@ TEST_F(RowsOfATable, AStoreOpenedForReadingIsNotWritten) {
   store.close();
   Store reader(path, Access::Read);
   TableStore<KeyframeRow> keyframes(reader);
-  expectError([&] { keyframes.put({"s", "left", {}}); }, path, "was opened for reading alone");
-  expectError([&] { keyframes.remove({"s", "left", {}}); }, path, "was opened for reading alone");
+  expectError([&] { keyframes.put({"s", "left", {}}); }, path, "was opened for reading only");
+  expectError([&] { keyframes.remove({"s", "left", {}}); }, path, "was opened for reading only");
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ class TrustStage {
   bool idle() { return false; }
   std::string reset() {
     trust_->reset();
-    return "the tests begin anew";
+    return "the tests were restarted";
   }
   void close() {}
   urban_nav_live::StageReport report() const { return trust_->report(); }

@@ -65,7 +65,7 @@ FrameTrust assessFrame(const FrameEvidence& frame, const std::vector<Failure>& f
   }
   for (std::size_t k = 0; k < kRadii.size(); ++k) {
     trust.probabilities[k] = std::min(1.0, trust.probabilities[k]);
-    if (k > 0) trust.probabilities[k] = std::max(trust.probabilities[k], trust.probabilities[k - 1]);  // last bits
+    if (k > 0) trust.probabilities[k] = std::max(trust.probabilities[k], trust.probabilities[k - 1]);  // rounding
   }
   return trust;
 }

@@ -14,8 +14,8 @@ using urban_nav_core::formatNumber;
 
 namespace {
 
-/// Squared Mahalanobis distance, with odometry's standard deviations `scale` times as large; nullopt if the covariance
-/// is not positive definite.
+/// Returns the squared Mahalanobis distance, with odometry's standard deviations multiplied by `scale`; nullopt if the
+/// covariance is not positive definite.
 std::optional<double> squaredDistance(const ClosureDifference& closure, double scale) {
   const Eigen::LLT<Eigen::MatrixXd> factor(scale * scale * closure.odometry + closure.closure);
   if (factor.info() != Eigen::Success) return std::nullopt;
@@ -68,9 +68,10 @@ void testKind(const std::vector<ClosureDifference>& closures, bool by_laser, Tes
   test.sentence = std::to_string(compared.size()) + (by_laser ? " closures by lasers" : " closures by stereo") +
                   " differ from odometry by up to " + formatNumber(worst.closure->distance_m) + " m and " +
                   formatNumber(worst.closure->angle_rad * 180.0 / M_PI) + " deg, " +
-                  formatNumber(std::sqrt(worst.perAxis()), 3) + " times what both state.";
+                  formatNumber(std::sqrt(worst.perAxis()), 3) + " times their stated standard deviation.";
   test.remedy =
-      "Odometry drifts more than it states, or a closure is false: check the calibration of the stereo pair, and the "
+      "Odometry drifts more than its covariance states, or a closure is false: check the calibration of the stereo "
+      "pair and the "
       "closure with `why`.";
   results.tests.push_back(std::move(test));
 }

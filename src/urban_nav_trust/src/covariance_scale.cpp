@@ -9,8 +9,8 @@ namespace urban_nav_trust {
 
 namespace {
 
-// The factor of a variance that odometry itself holds possible before anything is known of it: 400, the caution of the
-// disparity offset (docs/derivations/rig_constants.md). Below 1 is not considered: variances are never scaled down.
+// Largest prior factor, 400 as a variance, the prior range of the disparity offset (docs/derivations/rig_constants.md).
+// Factors below 1 are excluded: variances are never reduced.
 constexpr double kMostScale = 20.0;
 
 ScaleWeights normalise(const ScaleWeights& log_weights) {
@@ -22,7 +22,7 @@ ScaleWeights normalise(const ScaleWeights& log_weights) {
   return weights;
 }
 
-/// Log likelihood of a normally distributed difference, up to a constant.
+/// Returns the log likelihood of a normally distributed difference, up to a constant.
 double logLikelihood(double squares, double axes, double variance) {
   return -0.5 * (squares / variance + axes * std::log(variance));
 }

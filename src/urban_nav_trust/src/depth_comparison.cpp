@@ -23,9 +23,9 @@ constexpr std::size_t kLeastKeyframes = 8;
 constexpr std::size_t kLeastMatches = 200;
 constexpr int kDepthIterations = 10;
 constexpr double kDepthHuber = 1.5;  // standard deviations
-// Priors: scale, rad and m by which the mounting in tf may be wrong.
+// Standard deviations of the priors: scale, rotation (rad) and translation (m) of the mounting in tf.
 constexpr double kScalePrior = 0.2, kTurnPrior = 0.01, kShiftPrior = 0.02;
-constexpr int kLeastPoints = 20;  // of a keyframe, for the sides of the lasers
+constexpr int kLeastPoints = 20;  // per keyframe, for the assignment of the lasers
 
 Vector toRow(const SurfaceMatch& match) {
   const Eigen::Vector3d q = match.p - match.excess * match.normal;
@@ -47,7 +47,7 @@ Matrix priorInformation() {
   return sigma.cwiseAbs2().cwiseInverse().asDiagonal();
 }
 
-/// Upper tail of the standard normal distribution.
+/// Returns the upper tail probability of the standard normal distribution.
 double upperTail(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
 
 Interval span(const std::vector<KeyframeMatches>& keyframes) {

@@ -16,15 +16,15 @@ namespace {
 
 constexpr std::int64_t kWindowsPerHour = 3600;
 constexpr StampNs kWindow = 1'000'000'000;        // ns
-constexpr StampNs kClockSpacing = 2'000'000'000;  // ns, between estimates of the delay that count as one each
-constexpr double kLeastForward = 0.3;             // m of a window, below which a ratio means nothing
-// Differences of sound sensors in a second beyond noise: misalignment and scale errors of gyroscopes (0.2 % of a turn
-// of 1 rad), slip of tyres (0.5 % of the distance) and a wheel's play across (3 mrad).
+constexpr StampNs kClockSpacing = 2'000'000'000;  // ns, between independent estimates of the delay
+constexpr double kLeastForward = 0.3;             // m in a window, below which a ratio is undefined
+// Differences of sound sensors within a second, in addition to noise: misalignment and scale errors of gyroscopes (0.2
+// % of a turn of 1 rad), tyre slip (0.5 % of the distance) and lateral play of a wheel (3 mrad).
 constexpr double kTurnFloor = 2e-3, kSlip = 5e-3, kPlay = 3e-3;
 constexpr double kClockFloor = 2e-3;  // s, jitter of stamps
-constexpr double kKnownDelay = 0.01;  // s, sigma from which on the delay counts as known
+constexpr double kKnownDelay = 0.01;  // s, sigma below which the delay is considered known
 
-/// Returns the probability that one of so many windows has at least this chi-square, at most (Bonferroni).
+/// Returns an upper bound of the probability that any of the windows has at least this chi-square (Bonferroni).
 double turnProbability(double chi2, std::int64_t windows) {
   return std::min(1.0, static_cast<double>(windows) * (1.0 - urban_nav_core::chiSquareProbability(chi2, 3.0)));
 }
@@ -102,7 +102,7 @@ bool MotionMonitor::closeMoveWindow() {
   return changed;
 }
 
-// The ratio of the lengths is what the windows before have shown.
+// The ratio of lengths is estimated from the previous windows.
 void MotionMonitor::addLengthEvidence() {
   const std::vector<urban_nav_core::ChangeDetector::Segment> segments = speed_.detector.segments();
   if (segments.empty()) return;

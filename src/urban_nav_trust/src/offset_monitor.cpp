@@ -13,12 +13,12 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr std::int64_t kHorizon = 20 * 3600;  // frames of an hour: the alarm is set for sessions of that length
-// Neighbouring frames measure the same landmarks: the sum of n steps has this many times the variance of independent
+constexpr std::int64_t kHorizon = 20 * 3600;  // frames per hour: the alarm is set for sessions of that length
+// Consecutive frames measure the same landmarks: the sum of n steps has this many times the variance of n independent
 // ones (docs/derivations/trust.md).
 constexpr double kSharedLandmarks = 3.0;
-constexpr double kStepFloor = 0.02;  // px, of what all landmarks of a frame share: their templates, rectification
-constexpr StampNs kRenewal = 3'000'000'000;  // ns, until all landmarks are of the new mounting
+constexpr double kStepFloor = 0.02;          // px, error common to all landmarks of a frame: templates, rectification
+constexpr StampNs kRenewal = 3'000'000'000;  // ns, until all landmarks were created with the new mounting
 
 }  // namespace
 

@@ -10,14 +10,14 @@ namespace urban_nav_trust {
 namespace {
 
 constexpr int kSteps = 24;     // even, of Simpson's rule over half of each axis
-constexpr double kTail = 6.0;  // sigmas beyond which the density does not count
+constexpr double kTail = 6.0;  // sigmas beyond which the density is neglected
 constexpr double kSqrt2 = 1.4142135623730951;
 
-/// Integral of f(x) times the density of N(0, sigma^2) over |x| < h, f even.
+/// Returns the integral of f(x) times the density of N(0, sigma^2) over |x| < h, f even.
 template <typename Function>
 double integrate(double h, double sigma, const Function& f) {
   if (!(sigma > 1e-9 * h)) return f(0.0);
-  // With x = h sin(a) the end of the ball, where f has a vertical tangent, is smooth.
+  // The substitution x = h sin(a) removes the vertical tangent of f at the surface of the ball.
   const double reach = std::asin(std::min(1.0, kTail * sigma / h)), step = reach / kSteps;
   double sum = 0.0;
   for (int i = 0; i <= kSteps; ++i) {

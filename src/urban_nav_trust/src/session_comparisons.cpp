@@ -18,12 +18,12 @@ namespace {
 constexpr double kDegrees = 180.0 / M_PI;
 constexpr double kPoseNumbers = 6.0;
 
-/// Probability that |x| exceeds that of a normal variable of as many standard deviations.
+/// Returns the probability that a normal variable exceeds this many standard deviations in magnitude.
 double twoSided(double deviations) { return std::erfc(std::abs(deviations) / std::sqrt(2.0)); }
 
 double chiSquareTail(double x, double dof) { return 1.0 - urban_nav_core::chiSquareProbability(x, dof); }
 
-/// Two unit vectors across an upward direction, as columns.
+/// Returns two unit vectors orthogonal to a vertical direction, as columns.
 Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& up) {
   Eigen::Matrix<double, 3, 2> axes;
   axes.col(0) = up.unitOrthogonal();
@@ -69,10 +69,10 @@ void testGravity(const std::optional<UpEstimate>& by_ground, const std::optional
   test.p_value = std::exp(-0.5 * test.statistic);
   const double angle =
       std::atan2(by_ground->up.cross(by_accelerometer->up).norm(), by_ground->up.dot(by_accelerometer->up));
-  test.sentence = "The ground that stereo sees is tilted by " + formatNumber(kDegrees * angle) + " deg (+-" +
+  test.sentence = "The ground measured by stereo is tilted by " + formatNumber(kDegrees * angle) + " deg (+-" +
                   formatNumber(kDegrees * std::sqrt(0.5 * covariance.trace()), 2) +
                   ") against the accelerometer's gravity, on average.";
-  test.remedy = "The stereo head or the IMU is mounted otherwise than /tf_static states: measure its roll and pitch.";
+  test.remedy = "The mounting of the stereo head or the IMU differs from /tf_static: measure its roll and pitch.";
   results.tests.push_back(std::move(test));
 }
 
@@ -88,7 +88,7 @@ void testLidar(const std::optional<LidarComparison>& comparison, double rig_scal
   test.interval = comparison->contradictions > 0 ? comparison->worst : comparison->interval;
   test.statistic = comparison->spread;
   test.degrees_of_freedom = axes;
-  // All stretches together, and the worst one of them: the smaller of both counts twice (Bonferroni).
+  // All intervals together, and the worst of them: the smaller p-value is doubled (Bonferroni).
   const double of_all = probabilityUnderUnknownScale(axes * comparison->spread,
                                                      [&](double x) { return chiSquareTail(x, axes); }),
                of_worst = static_cast<double>(comparison->stretches) *
@@ -97,11 +97,11 @@ void testLidar(const std::optional<LidarComparison>& comparison, double rig_scal
   test.p_value = std::min(1.0, 2.0 * std::min(of_all, of_worst));
   test.sentence = "In " + std::to_string(comparison->stretches) +
                   " stretches of 1 s stereo and LiDAR odometry differ by " +
-                  formatNumber(std::sqrt(comparison->spread), 3) + " times what both state, and " +
+                  formatNumber(std::sqrt(comparison->spread), 3) + " times their stated standard deviation, and " +
                   std::to_string(comparison->contradictions) + " of them contradict each other.";
   test.remedy = "Compare --odometry stereo and --odometry laser, and check clocks and mounting.";
   results.tests.push_back(std::move(test));
-  // The covariance has been multiplied by the spread: what is left is as many numbers of mean square one.
+  // Covariances were multiplied by the spread: the normalised residuals have mean square one.
   ScaleWeights log_likelihoods{};
   for (std::size_t i = 0; i < kScaleCount; ++i) {
     const double variance = covarianceScales()[i] * covarianceScales()[i];

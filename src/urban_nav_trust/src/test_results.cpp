@@ -14,7 +14,7 @@ namespace urban_nav_trust {
 
 namespace {
 
-/// Part of the motion that a test compares. Other tests compare something else.
+/// Component of the motion compared by a test; other tests compare something else.
 struct Subject {
   const char* test;
   bool turns, lengths;
@@ -26,7 +26,7 @@ constexpr std::array<Subject, 6> kSubjects = {{{kTurnTest, true, false},
                                                {kLaserClosureTest, true, true},
                                                {kLidarTest, true, true}}};
 
-/// Returns the tests of turns, or of lengths, that were absent, each with the reason.
+/// Returns the tests of turns or of lengths that were absent, each with its reason.
 std::string absentSentence(bool Subject::*what, const TestResults& results) {
   std::string text;
   for (const Subject& subject : kSubjects)
@@ -48,7 +48,7 @@ Confirmation confirm(const TestResults& results) {
       confirmation.lengths |= subject.lengths;
     }
   }
-  // One estimator states both, so one factor is unknown until a test separates turns from lengths.
+  // One estimator states both, so one factor is common unless a test separates turns from lengths.
   confirmation.scales = results.turns.isEmpty() && results.lengths.isEmpty()
                             ? ScaleEvidence().probabilities()
                             : largerScale(results.turns.probabilities(), results.lengths.probabilities());

@@ -14,7 +14,7 @@
 namespace urban_nav_trust {
 namespace {
 
-/// 100 frames of 1 s and 1 m, each known to 0.05 m per axis.
+/// 100 frames of 1 s and 1 m, each with a standard deviation of 0.05 m per axis.
 std::vector<FrameEvidence> drive() {
   std::vector<FrameEvidence> frames(100);
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -71,7 +71,7 @@ TEST(Assessment, IsKnownOnlyWhereBothTurnsAndLengthsWereCompared) {
   EXPECT_NE(without_gyroscope.reason.find("no gyroscope"), std::string::npos) << without_gyroscope.reason;
 }
 
-// Were the covariance right, 5 cm per axis would be within 10 cm with probability 0.739.
+// With a consistent covariance, 5 cm per axis would be within 10 cm with probability 0.739.
 TEST(Assessment, ACovarianceThatNothingConfirmsGivesWideProbabilities) {
   TestResults nothing, confirmed;
   confirmed.tests = bothPass();
@@ -119,7 +119,7 @@ TEST(Assessment, AFailureWidensAndNamesItselfFromItsBeginOn) {
   const MapTrust map = assessMap(frames, results, parameters);
   EXPECT_EQ(map.state, TrustState::Unsure);
   EXPECT_EQ(map.reason, "a differs.");
-  // Closures hand the error on to the path before.
+  // Closures propagate the error to the path before.
   const auto spread = assessFrames(drive(), results, true, parameters);
   EXPECT_EQ(spread[10].state, TrustState::Unsure);
   EXPECT_EQ(spread[10].probabilities, spread[99].probabilities);

@@ -10,7 +10,7 @@
 namespace urban_nav_trust {
 namespace {
 
-/// A row of closures of one place. Odometry, whose errors are `scale` times what it states, is off by the same for all.
+/// Consecutive closures of one place. The error of odometry, `scale` times what it states, is common to all.
 std::vector<ClosureDifference> row(unsigned seed, double scale, bool by_laser = true) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, 1.0);
@@ -57,7 +57,7 @@ TEST(ClosureComparison, OdometryThatIsBeyondAnyFactorFails) {
   EXPECT_EQ(results.absent.size(), 1U);  // none by stereo
 }
 
-// One closure or twelve of the same place: the evidence is that of one.
+// Twelve closures of the same place have the evidence of one.
 TEST(ClosureComparison, ARowOfClosuresIsEvidenceOnce) {
   std::vector<ClosureDifference> closures = row(2, 1.0);
   const TestResults all = test(closures);

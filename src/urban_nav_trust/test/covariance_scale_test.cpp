@@ -54,7 +54,7 @@ TEST(CovarianceScale, AMeasurementThatIsMuchCoarserThanOdometryIsLittleEvidence)
   EXPECT_LT(probabilityAbove(fine.probabilities(), 2.0), 1e-3);
 }
 
-// Windows that scatter by less than sensors may are silent on factors that stay below that scatter.
+// Windows with less variation than sensors may have do not distinguish factors below that.
 TEST(CovarianceScale, WindowsExcludeOnlyFactorsWhoseScatterWouldShow) {
   std::mt19937 random(4);
   std::normal_distribution<double> normal(0.0, 1.0);

@@ -10,7 +10,7 @@
 namespace urban_nav_trust {
 namespace {
 
-/// Keyframes between walls and over ground, with stereo points whose lengths are too long by `scale`.
+/// Keyframes between walls and above ground, with stereo points whose lengths are too long by `scale`.
 std::vector<KeyframeMatches> drive(unsigned seed, double scale, double noise, double yaw = 0.0) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, 1.0);
@@ -40,12 +40,12 @@ std::vector<KeyframeMatches> drive(unsigned seed, double scale, double noise, do
 
 TEST(DepthComparison, TheScaleIsExactWithoutNoise) {
   const DepthScale found = estimateDepthScale(drive(1, 0.01, 0.0));
-  EXPECT_NEAR(found.scale, 0.01, 2e-4);  // p itself is too long, and priors of the mounting pull
+  EXPECT_NEAR(found.scale, 0.01, 2e-4);  // p is too long by the scale, and the priors of the mounting bias the estimate
   EXPECT_EQ(found.keyframes, 40U);
 }
 
-// Noise along the line of sight lengthens n . p by what it adds to the excess: with p in place of the surface's point
-// walls at 2 m, seen to 0.1 m, would be a scale of 0.0025.
+// Noise along the line of sight increases n . p together with the excess: with p instead of the surface's point, walls
+// at 2 m with a noise of 0.1 m would give a scale of 0.0025.
 TEST(DepthComparison, NoiseOfStereoIsNoScale) {
   double sum = 0.0;
   const int runs = 100;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr urban_nav_core::StampNs kStep = 50'000'000;
 
-/// A robot at 1 m/s, whose sensors differ by noise and by what is given.
+/// Robot at 1 m/s, whose sensors differ by noise and by the given errors.
 class MeasuredDrive {
  public:
   explicit MeasuredDrive(unsigned seed) : random_(seed) {}
@@ -73,7 +73,7 @@ TEST(MotionMonitor, IsEvidenceOfOdometrysCovarianceOfTurnsAndLengths) {
   MeasuredDrive(1).drive(monitor, 60.0);
   EXPECT_FALSE(monitor.turnEvidence().isEmpty());
   EXPECT_FALSE(monitor.lengthEvidence().isEmpty());
-  // 4.5 urad in a second are stated, 2.2 mrad of noise are known: no factor of 20 would show.
+  // With 4.5 urad per second stated and 2.2 mrad of noise, a factor of 20 would not be detectable.
   EXPECT_NEAR(monitor.turnEvidence().probabilities()[kScaleCount - 1], 1.0 / kScaleCount, 0.05);
 }
 

@@ -13,8 +13,8 @@ namespace {
 constexpr urban_nav_core::StampNs kFrame = 50'000'000;
 constexpr double kSigma = 0.03;  // px
 
-/// Steps of a session as odometry measures them: errors of neighbouring frames are correlated by a half, and a knock
-/// shows until the landmarks are renewed, ten frames later.
+/// Steps of a session as measured by odometry: errors of consecutive frames are correlated by one half, and a
+/// displacement is visible until the landmarks are renewed, ten frames later.
 class Session {
  public:
   explicit Session(unsigned seed) : random_(seed) {}

@@ -8,16 +8,16 @@
 
 namespace fabmap_node {
 
-/// Distance driven in a session, by odometry as it was at each time. Not thread-safe.
+/// Distance travelled in a session, by odometry. Not thread-safe.
 class TravelledDistance {
  public:
-  /// Adds a position in `odom`, m; stamps ascend, others are ignored.
+  /// Adds a position in `odom`, m; stamps must ascend, others are ignored.
   void add(urban_nav_core::StampNs stamp, const Eigen::Vector3d& position);
-  /// Returns the distance driven up to a stamp, m, interpolated; before the first position 0, after the last one its
-  /// distance.
+  /// Returns the distance travelled up to a stamp, m, interpolated; 0 before the first position, constant after the
+  /// last one.
   double at(urban_nav_core::StampNs stamp) const;
   bool empty() const { return stamps_.empty(); }
-  /// Returns the last stamp. Requires that it is not empty.
+  /// Returns the last stamp. Requires at least one position.
   urban_nav_core::StampNs last() const { return stamps_.back(); }
 
  private:

@@ -13,16 +13,16 @@ struct FeatureOptions {
   int panorama = 250;  ///< largest number of features of one image of a panorama
 };
 
-/// Extracts features for place recognition: FAST corners at several levels of a pyramid, spread by a quadtree, the best
-/// first by Harris score (Newman et al. 2009, section 2.4 (i) and (v)), each with the upright descriptor of keyframes.
-/// Upright descriptors suit a robot on wheels, and distinguish a window sill from a door post. Equal images give equal
-/// features. Thread-safe.
+/// Extracts features for place recognition: FAST corners at several pyramid levels, distributed by a quadtree, the best
+/// by Harris score first (Newman et al. 2009, section 2.4 (i) and (v)), each with the upright descriptor of keyframes.
+/// Upright descriptors suit a wheeled robot, and distinguish a window sill from a door post. Deterministic.
+/// Thread-safe.
 class FeatureExtractor {
  public:
   explicit FeatureExtractor(const FeatureOptions& options = {}) : options_(options) {}
 
-  /// One image: a single camera. More: the images of a panorama, in order around the vertical axis; an empty view is a
-  /// camera without an image at this time.
+  /// One image: single camera. Several: images of a panorama, in order around the vertical axis; an empty view is a
+  /// missing image.
   PlaceObservation extract(const std::vector<urban_nav_core::ImageView>& images) const;
 
  private:

@@ -12,15 +12,14 @@
 
 namespace fabmap_node {
 
-/// Everything that training provides: words, their dependence, samples of places for the likelihood of a new one, and
-/// the calibrations of probabilities for single images and for panoramas: of an observation alone, and with those
-/// before it. Plain data.
+/// Result of training: words, their dependence, sampled places for the likelihood of a new one, and calibrations of
+/// probabilities for single images and for panoramas, of single observations and of sequences. Plain data.
 struct PlaceModel {
   Vocabulary vocabulary;
-  ChowLiuTree tree;  ///< probabilities in single precision, as the file has them
+  ChowLiuTree tree;  ///< probabilities in single precision, as in the file
   Detector detector{0.39, 0.05};
   std::vector<WordSet> sampled_places;
-  PlaceCalibration single, panorama;                                   ///< of an observation alone
+  PlaceCalibration single, panorama;                                   ///< of single observations
   std::optional<PlaceCalibration> single_sequence, panorama_sequence;  ///< nullopt: sequences are not used
 
   const PlaceCalibration& calibration(int cameras) const { return cameras > 1 ? panorama : single; }
@@ -29,21 +28,21 @@ struct PlaceModel {
   }
 };
 
-/// Returns the bytes of a model: versioned, with a checksum, the same on every machine.
+/// Returns the bytes of a model: versioned, with a checksum, identical on every machine.
 std::string printModel(const PlaceModel& model);
-/// Returns the model of printModel(). Throws DataError with `name` if the bytes are truncated, damaged, of another
-/// version, of a model of OpenCV's features, or inconsistent.
+/// Parses the output of printModel(). Throws DataError with `name` if the bytes are truncated, damaged, of another
+/// version, of a model with OpenCV's features, or inconsistent.
 PlaceModel parseModel(std::string_view bytes, const std::string& name);
-/// Returns the bytes of a model without version and checksum: for tests of damaged content.
+/// Returns the bytes of a model without version and checksum, for tests with damaged content.
 std::string printModelContent(const PlaceModel& model);
-/// Returns the model of printModelContent(). Throws DataError with `name` if the content is damaged.
+/// Parses the output of printModelContent(). Throws DataError with `name` if the content is damaged.
 PlaceModel parseModelContent(std::string_view content, const std::string& name);
-/// Reads a model file. Throws UserError if it is missing, DataError as parseModel().
+/// Reads a model file. Throws UserError if it is missing, DataError like parseModel().
 PlaceModel readModel(const std::string& path);
-/// Returns the bytes of the model that the suite comes with; they live as long as the program.
+/// Returns the bytes of the built-in model, which are static.
 std::string_view defaultModelBytes();
 PlaceModel defaultModel();
-/// Returns 16 hexadecimal digits that identify the content of a model.
+/// Returns a hash of the content of a model, 16 hexadecimal digits.
 std::string modelHash(std::string_view bytes);
 
 /// Rounds the probabilities of a tree to single precision, as printModel() stores them.

@@ -9,9 +9,9 @@
 
 namespace fabmap_node {
 
-/// Returns the differences of successive words, one or two bytes each.
+/// Encodes the differences of consecutive words, one or two bytes each.
 std::vector<std::uint8_t> packWords(const WordSet& words);
-/// Returns the words of packWords(); nullopt if the bytes are damaged, or a word is not below `vocabulary_size`.
+/// Inverse of packWords(); nullopt if the bytes are damaged, or a word is not below `vocabulary_size`.
 std::optional<WordSet> unpackWords(const std::vector<std::uint8_t>& bytes, std::size_t vocabulary_size);
 
 }  // namespace fabmap_node

@@ -9,8 +9,7 @@ namespace fabmap_node {
 
 using Word = std::uint32_t;
 
-/// Words of the vocabulary present in one observation: ascending, each once. Counts are not used (Newman et al. 2009,
-/// section 3.1: z is binary).
+/// Distinct words of one observation, ascending. Counts are not used (Newman et al. 2009, section 3.1: z is binary).
 using WordSet = std::vector<Word>;
 
 /// Observations of one vocabulary, in order of time.

@@ -8,12 +8,12 @@
 
 namespace fabmap_node {
 
-/// Inverted index over places of one observation each: log likelihoods of a query at every place without a pass over
-/// the vocabulary (FAB-MAP 2.0: Cummins and Newman, RSS 2009, section IV), and equal to logLikelihoodPlain() up to
-/// rounding.
+/// Inverted index over places of one observation each: computes log likelihoods of a query at every place without a
+/// pass over the vocabulary (FAB-MAP 2.0: Cummins and Newman, RSS 2009, section IV), equal to logLikelihoodPlain() up
+/// to rounding.
 ///
-/// Each place carries the likelihood of an empty query. Only words whose combination (z_q, z_parent) differs from
-/// (0, 0), the words of the query and their children, are then corrected along their postings.
+/// Each place stores the likelihood of an empty query. Only words whose combination (z_q, z_parent) differs from (0,
+/// 0), that is the words of the query and their children, are then corrected along their postings.
 ///
 /// Memory: that of WordPostings, and 8 bytes per place. Not thread-safe while add() runs; const functions are.
 class PlaceIndex {
@@ -21,7 +21,7 @@ class PlaceIndex {
   /// The table must outlive the index.
   explicit PlaceIndex(const LikelihoodTable& table);
 
-  /// Adds a place; its number is the former size(). Requires words below the table's size.
+  /// Adds a place, whose number is the previous size(). Requires words below the table's size.
   void add(const WordSet& place);
   std::size_t size() const { return empty_query_.size(); }
 
@@ -32,7 +32,7 @@ class PlaceIndex {
  private:
   const LikelihoodTable& table_;
   double nothing_seen_ = 0.0;        // log likelihood of an empty query at an empty place
-  std::vector<double> empty_query_;  // per place: what its words add to nothing_seen_
+  std::vector<double> empty_query_;  // per place: contribution of its words to nothing_seen_
   WordPostings postings_;
 };
 

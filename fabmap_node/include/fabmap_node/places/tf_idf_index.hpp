@@ -8,7 +8,7 @@
 
 namespace fabmap_node {
 
-/// Ranks places by the cosine similarity of weighted words (Sivic and Zisserman, ICCV 2003): the usual alternative to
+/// Ranks places by the cosine similarity of weighted words (Sivic and Zisserman, ICCV 2003), the common alternative to
 /// likelihoods, for comparison. The weight of a word is -log p(z_q = 1), its inverse document frequency in training;
 /// words of an observation count once. Const functions are thread-safe.
 class TfIdfIndex {
@@ -16,7 +16,7 @@ class TfIdfIndex {
   /// Takes the frequencies of words from a tree.
   explicit TfIdfIndex(const ChowLiuTree& tree);
 
-  /// Adds a place; its number is the former size(). Requires words below the tree's size.
+  /// Adds a place, whose number is the previous size(). Requires words below the tree's size.
   void add(const WordSet& place);
   std::size_t size() const { return norms_.size(); }
 

@@ -15,9 +15,9 @@ struct WeightedWord {
   double weight = 0.0;
 };
 
-/// Inverted lists: of each word the places that contain it, in blocks of places whose sums stay in the first-level
-/// cache while they are added up. Words that many places of a block contain are stored as bits of the places instead,
-/// eight words in a byte, whose sums are looked up.
+/// Inverted lists: for each word, the places that contain it, in blocks of places whose sums fit the first-level cache.
+/// Words contained in many places of a block are stored as bits per place instead, eight words in a byte, with sums
+/// from a lookup table.
 ///
 /// Memory: at most 2 bytes per word of a place, and 4 bytes per word of the vocabulary for every 4 096 places. Not
 /// thread-safe while add() runs; const functions are.
@@ -25,21 +25,21 @@ class WordPostings {
  public:
   explicit WordPostings(std::size_t words) : open_(words) {}
 
-  /// Adds a place; its number is the former size(). Requires words below the number of words.
+  /// Adds a place, whose number is the previous size(). Requires words below the number of words.
   void add(const WordSet& place);
   std::size_t size() const { return size_; }
 
-  /// Adds to the sum of each place the weights of those of `words` that it contains. Deterministic. Requires
-  /// sums.size() == size(), and different words.
+  /// Adds to the sum of each place the weights of the `words` that it contains. Deterministic. Requires sums.size() ==
+  /// size(), and distinct words.
   void addWeights(const std::vector<WeightedWord>& words, std::vector<double>& sums) const;
 
  private:
-  /// Eight words, one for each bit, and a byte for each place of the block.
+  /// Eight words, one per bit, with a byte for each place of the block.
   struct WordOctet {
     std::array<Word, 8> words{};
     std::vector<std::uint8_t> bits;
   };
-  /// Places by words: those of word q are places[begin[q]] ... places[begin[q + 1]], by their numbers in the block.
+  /// Places by word: those of word q are places[begin[q]] ... places[begin[q + 1]], numbered within the block.
   struct FullBlock {
     std::vector<std::uint32_t> begin;
     std::vector<std::uint16_t> places;
@@ -50,7 +50,7 @@ class WordPostings {
 
   std::size_t size_ = 0;
   std::vector<FullBlock> full_;
-  std::vector<std::vector<std::uint16_t>> open_;  // of the last block, by words
+  std::vector<std::vector<std::uint16_t>> open_;  // last block, by word
 };
 
 }  // namespace fabmap_node

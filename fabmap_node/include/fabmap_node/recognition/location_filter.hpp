@@ -6,28 +6,28 @@
 
 namespace fabmap_node {
 
-/// Place that an observation may show, with the evidence of that observation alone.
+/// Candidate place of an observation, with the evidence of that observation only.
 struct LocationHypothesis {
-  std::size_t session = 0, place = 0;  ///< places of a session have ascending numbers along the path
-  double log_ratio = 0.0;              ///< log likelihood ratio of this place to a new one, nats
+  std::size_t session = 0, place = 0;  ///< places of a session are numbered along the path
+  double log_ratio = 0.0;              ///< log likelihood ratio to a new place, nats
 };
 
-/// Location prior from the topology (Newman et al. 2009, section 3.2): after an observation at a place, the next one
-/// shows one of the places around it, before or after it along the path, or a new place, or a place elsewhere. A
-/// forward filter over the places that were compared and the hypothesis NEW.
+/// Location prior from the topology (Newman et al. 2009, section 3.2): after an observation at a place, the next one is
+/// at one of the neighbouring places along the path, at a new place, or at a place elsewhere. Forward filter over the
+/// compared places and the hypothesis NEW.
 class LocationFilter {
  public:
-  /// Returns the log odds of a place to NEW before its observation, relative to those without any prior; nats, within
+  /// Returns the log odds of a place relative to NEW before its observation, minus those without a prior; nats, within
   /// -3 ... 5.3. Zero for every place until the first update.
   double priorLogOdds(std::size_t session, std::size_t place) const;
   /// Returns the share, 0 ... 1, of the last ten observations whose likeliest places lie on one path at constant speed
-  /// that ends at `place`: half to twice the speed of the first visit, in either direction. Along a path that is driven
-  /// again, places succeed each other as the observations do; places that merely look alike stay, or jump.
+  /// that ends at `place`: half to twice the speed of the first visit, in either direction. On a path that is driven
+  /// again, places advance with the observations; places with a similar appearance stay constant, or jump.
   double motionConsistency(std::size_t session, std::size_t place) const;
-  /// Applies the evidence of one observation. Of hypotheses around one place, the likeliest counts.
+  /// Applies the evidence of one observation. Of hypotheses around one place, only the likeliest is used.
   void update(const std::vector<LocationHypothesis>& hypotheses);
 
-  /// Probability after the last update that the place is new; 0.5 before.
+  /// Returns the probability after the last update that the place is new; 0.5 before.
   double probabilityNew() const { return p_new_; }
 
  private:
@@ -35,12 +35,12 @@ class LocationFilter {
     std::size_t session = 0, place = 0;
     double probability = 0.0;
   };
-  std::vector<Location> recent_;     // likeliest places, the last one first
-  std::vector<Location> locations_;  // no two around one place; with p_new_ they sum to 1
+  std::vector<Location> recent_;     // likeliest places, most recent first
+  std::vector<Location> locations_;  // at most one around each place; with p_new_ they sum to 1
   double p_new_ = 0.5;
 };
 
-/// Returns the index of the hypothesis that is likeliest with the prior of `filter`. Requires at least one.
+/// Returns the index of the most probable hypothesis under the prior of `filter`. Requires at least one.
 std::size_t likeliestLocation(const LocationFilter& filter, const std::vector<LocationHypothesis>& hypotheses);
 
 }  // namespace fabmap_node

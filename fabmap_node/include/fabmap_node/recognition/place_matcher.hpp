@@ -16,9 +16,10 @@ namespace fabmap_node {
 
 struct MatcherOptions {
   int first_looks = 30;             ///< likeliest candidates of which a quarter of the descriptors is compared
-  int second_looks = 10;            ///< candidates that are compared descriptor by descriptor; 0: none
-  std::size_t look_features = 540;  ///< features that a second look compares: 19 kB a place
-  urban_nav_core::StampNs elsewhere = 10'000'000'000;  ///< places of one session so far apart in time are elsewhere, ns
+  int second_looks = 10;            ///< candidates of which all descriptors are compared; 0: none
+  std::size_t look_features = 540;  ///< features per place for descriptor matching: 19 kB
+  urban_nav_core::StampNs elsewhere = 10'000'000'000;  ///< smallest time between places of one session that are
+                                                       ///< elsewhere, ns
 };
 
 /// Reads packLook() of a place of the map, by the index of its session and its stamp.
@@ -32,45 +33,46 @@ struct DescribedPlace {
   std::string look;  ///< packLook()
 };
 
-/// Place that an observation may show.
+/// Candidate place of an observation.
 struct PlaceMatch {
   std::size_t place = 0, session = 0;
   double log_likelihood = 0.0;      ///< at this place, nats
   double log_likelihood_new = 0.0;  ///< at a new place, nats
-  int agreeing = 0;                 ///< of the second look
+  int agreeing = 0;                 ///< matched descriptors that are geometrically consistent
   PlaceEvidence evidence;
 };
 
-/// One place held against a query, whether or not a search would compare it.
+/// Comparison of a place with a query, whether or not a search would compare it.
 struct PlaceComparison {
   PlaceMatch match;
-  LookAgreement look;             ///< zero without a second look
-  std::size_t candidates = 0;     ///< places that were admitted
-  std::size_t rank_by_words = 0;  ///< of the place among them; 1: the likeliest
-  bool is_compared = false;       ///< a search compares it descriptor by descriptor
-  bool is_first = false;          ///< a search returns it as the most likely one
+  LookAgreement look;             ///< zero without descriptor matching
+  std::size_t candidates = 0;     ///< places admitted as candidates
+  std::size_t rank_by_words = 0;  ///< rank of the place among them; 1: the likeliest
+  bool is_compared = false;       ///< a search would match its descriptors
+  bool is_first = false;          ///< a search would return it as the likeliest
 };
 
-/// Places with their words and descriptors, and the search for the one that an observation shows (Newman et al. 2009,
-/// section 3): likelihoods of words first, then a second look at the likeliest candidates. The likelihood of a new
-/// place is the mean over the model's sampled places (Cummins and Newman 2008, section 4.4.2).
+/// Places with their words and descriptors, and the search for the place of an observation (Newman et al. 2009, section
+/// 3): likelihoods of words first, then descriptor matching for the likeliest candidates. The likelihood of a new place
+/// is the mean over the model's sampled places (Cummins and Newman 2008, section 4.4.2).
 ///
-/// matches() is deterministic for any number of threads. Const functions are thread-safe if the reader of looks is.
+/// matches() is deterministic for any number of threads. Const functions are thread-safe if the reader of descriptors
+/// is.
 class PlaceMatcher {
  public:
   /// The model must outlive the matcher. `sampled`: observations of places outside the map. With `read_look` the
-  /// matcher keeps neither words nor look of a place beside the index: looks are read when they are compared, by the
-  /// thread that calls.
+  /// matcher does not keep the words and descriptors of places beside the index: descriptors are read for each
+  /// comparison, by the calling thread.
   PlaceMatcher(const LikelihoodTable& table, const std::vector<WordSet>& sampled, const MatcherOptions& options,
                LookReader read_look = {});
 
-  /// Appends a place; its number is the former size().
+  /// Appends a place, whose number is the previous size().
   void add(DescribedPlace place);
   std::size_t size() const { return places_.size(); }
   const DescribedPlace& place(std::size_t i) const { return places_[i]; }
 
-  /// Returns the places that were compared, of those that `isCandidate` admits, the most likely first; empty if there
-  /// are none. Margins of the first leave out places elsewhere that show the same as it; those of the others do not.
+  /// Returns the compared places among those admitted by `isCandidate`, most probable first; empty if there are none.
+  /// Margins of the first one exclude places elsewhere that show the same place; those of the others do not.
   std::vector<PlaceMatch> matches(const DescribedPlace& query,
                                   const std::function<bool(std::size_t)>& isCandidate) const;
   /// Returns the first of matches().
@@ -101,7 +103,7 @@ class PlaceMatcher {
   LookFeatures look(std::size_t place) const;
 
   const MatcherOptions options_;
-  const LookReader read_look_;  // empty: places_ have their looks
+  const LookReader read_look_;  // empty: places_ contain the descriptors
   PlaceIndex index_, sampled_;
   std::vector<DescribedPlace> places_;
 };

@@ -14,34 +14,33 @@ namespace fabmap_node {
 struct RecogniserOptions {
   MatcherOptions matcher;
   bool sequence =
-      true;  ///< in places of other sessions, the observations before count, if the model is calibrated for it
-  bool detects_stationary = true;  ///< an observation of a stationary camera replaces the one before in the sequence
-  urban_nav_core::StampNs mask = 20'000'000'000;  ///< younger places of the same session are no candidates, ns
+      true;  ///< for places of other sessions, use previous observations, if the model is calibrated for it
+  bool detects_stationary = true;  ///< an observation of a stationary camera replaces the previous one in the sequence
+  urban_nav_core::StampNs mask = 20'000'000'000;  ///< more recent places of the same session are not candidates, ns
 };
 
 struct PlaceRecognition {
   ObservationStatus status = ObservationStatus::Used;
-  std::size_t words = 0;            ///< different words of the observation
+  std::size_t words = 0;            ///< distinct words of the observation
   std::optional<PlaceMatch> match;  ///< nullopt if there is no earlier place
   double probability = 0.0;         ///< that `match` shows the same place
-  /// Match in other sessions alone, if `match` is of the session of the observation, which shows places in the same
-  /// light.
+  /// Best match in other sessions, if `match` is of the observation's own session, in which the light is the same.
   std::optional<PlaceMatch> earlier;
   double earlier_probability = 0.0;  ///< that `earlier` shows the same place
 };
 
-/// Recognises places in the observations of one session after another: each is compared with the places before, then
-/// becomes a place itself. Calls in order of time. Not thread-safe.
+/// Recognises places in the observations of consecutive sessions: each is compared with the previous places, then
+/// becomes a place itself. Calls must be in order of time. Not thread-safe.
 class PlaceRecogniser {
  public:
-  /// The model must outlive the recogniser. `read_look`: as of PlaceMatcher.
+  /// The model must outlive this object. `read_look`: see PlaceMatcher.
   PlaceRecogniser(const PlaceModel& model, const RecogniserOptions& options, LookReader read_look = {});
   PlaceRecogniser(const PlaceRecogniser&) = delete;
   PlaceRecogniser& operator=(const PlaceRecogniser&) = delete;
 
-  /// Starts a session: its places are no candidates for each other within the mask.
+  /// Starts a session; its places are not candidates for each other within the mask.
   void beginSession();
-  /// Adds an observation as a place without recognising it. Returns whether it is usable.
+  /// Adds an observation as a place without recognition. Returns whether it is usable.
   bool add(urban_nav_core::StampNs stamp, const PlaceDescription& description);
   PlaceRecognition process(urban_nav_core::StampNs stamp, const PlaceDescription& description);
 
@@ -58,7 +57,7 @@ class PlaceRecogniser {
   LikelihoodTable table_;
   PlaceMatcher matcher_;
   LocationFilter filter_, filter_before_;  // after and before the last observation of this session
-  std::optional<LookFeatures> last_look_;  // of this session, if stationary observations are to be detected
+  std::optional<LookFeatures> last_look_;  // in this session, for the detection of stationary observations
   std::size_t session_ = 0;
   bool has_session_ = false;
 };

@@ -7,13 +7,13 @@
 
 namespace fabmap_node {
 
-/// Reads bags of words as openFABMAP writes them: OpenCV's YAML (also .gz) with one matrix, one row per observation,
-/// one column per word. A word counts as present if its entry is above 0.
-/// Throws UserError with the file for what is not such a matrix, or holds entries that are not finite.
+/// Reads bags of words in the format of openFABMAP: OpenCV's YAML (also .gz) with one matrix, one row per observation,
+/// one column per word. A word is present if its element is positive.
+/// Throws UserError with the file for any other content, and for elements that are not finite.
 WordSets readBagsOfWords(const std::string& path);
 
-/// Reads a tree as openFABMAP writes it: a matrix of 4 rows (parent, p, p given parent present, p given parent absent)
-/// and one column per word. Throws UserError with the file unless it is one tree.
+/// Reads a tree in the format of openFABMAP: a matrix of 4 rows (parent, p, p given parent present, p given parent
+/// absent) and one column per word. Throws UserError with the file unless it is a single tree.
 ChowLiuTree readTree(const std::string& path);
 
 /// Writes `tree` in the same format; a name that ends in .gz is compressed. Throws UserError if the file cannot be

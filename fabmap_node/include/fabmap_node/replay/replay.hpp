@@ -10,18 +10,18 @@
 
 namespace fabmap_node {
 
-/// Inference as openFABMAP does it (Glover et al., ICRA 2012), for comparison of the arithmetic with that program.
+/// Inference methods of openFABMAP (Glover et al., ICRA 2012), for numeric comparison with that program.
 enum class ReplayModel {
   ChowLiu,          ///< FAB-MAP, tree, mean-field new place
-  Naive,            ///< the same without the tree
-  ChowLiuPzgne001,  ///< as ChowLiu with p(z = 1 | e = 0) = 0.01
+  Naive,            ///< ChowLiu without the tree
+  ChowLiuPzgne001,  ///< ChowLiu with p(z = 1 | e = 0) = 0.01
   Fabmap2Sampled,   ///< FAB-MAP 2, new place: mean likelihood over all observations of the input
-  ChowLiuMotion     ///< as ChowLiu with a prior of motion: new place 0.9, forward bias 0.5
+  ChowLiuMotion     ///< ChowLiu with a motion prior: new place 0.9, forward bias 0.5
 };
 
-/// Names of the models in the order of the enumeration.
+/// Returns the names of the models in the order of the enumeration.
 const std::vector<std::string>& replayModelNames();
-/// Throws UserError with the allowed names.
+/// Returns the model of a name. Throws UserError with the valid names.
 ReplayModel replayModelFromName(const std::string& name);
 
 struct ReplayRow {
@@ -29,10 +29,10 @@ struct ReplayRow {
   std::size_t query = 0;
   std::int64_t place = kNewPlace;
   double log_likelihood = 0.0;  ///< nats
-  double probability = 0.0;     ///< over all rows of this query: sums to 1
+  double probability = 0.0;     ///< over all rows of this query, which sum to 1
 };
 
-/// Presents the observations in order: each is compared with the new place and all earlier observations, then becomes
+/// Processes the observations in order: each is compared with the new place and all earlier observations, then becomes
 /// a place. Calls `row` for the new place first, then for the places in order.
 /// Throws UserError if tree and observations differ in vocabulary size.
 void replay(const WordSets& input, const ChowLiuTree& tree, ReplayModel model,

@@ -8,14 +8,14 @@
 
 namespace fabmap_node {
 
-/// Number of features of a keyframe's second look that a store holds: 9 kB a keyframe.
+/// Number of stored features per keyframe for descriptor matching: 9 kB.
 inline constexpr std::size_t kKeyframeLookFeatures = 250;
 
-/// Finds keyframes by their words, and by a second look at the likeliest ones.
+/// Finds keyframes by their words, and by descriptor matching for the likeliest ones.
 ///
-/// Words and descriptors are those that `map` has stored, with the model whose words most sessions of the map have. A
-/// keyframe without them, of another model or of another camera is described from its image, by the default model if
-/// there is no other: some 10 ms instead of 0.1 ms each, and 9 kB of memory instead of 1 kB.
+/// Words and descriptors are those stored by `map`, with the model of most sessions of the map. A keyframe without
+/// them, of another model or of another camera is described from its image, by the default model if there is no other:
+/// about 10 ms instead of 0.1 ms each, and 9 kB of memory instead of 1 kB.
 class KeyframePlaces final : public urban_nav_registration::KeyframeRetrieval {
  public:
   KeyframePlaces();
@@ -26,7 +26,7 @@ class KeyframePlaces final : public urban_nav_registration::KeyframeRetrieval {
   bool readNext() override;
   std::vector<std::size_t> find(const urban_nav_registration::Keyframe& keyframe, std::size_t most) const override;
 
-  /// Returns how many of those read had to be described from their images.
+  /// Returns the number of keyframes that had to be described from their images.
   std::size_t described() const;
 
  private:

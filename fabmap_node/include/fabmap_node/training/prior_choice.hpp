@@ -7,23 +7,23 @@
 
 namespace fabmap_node {
 
-/// What a fit with a prior of one deviation predicts for sites that it has not seen.
+/// Prediction loss at held-out sites for one standard deviation of the prior.
 struct HeldOutLoss {
   double prior_deviation = 0.0;
-  double log_loss = 0.0;        ///< mean of the samples, right and wrong ones weighing the same, nats
-  double standard_error = 0.0;  ///< of `log_loss`, from its scatter over sites
+  double log_loss = 0.0;        ///< mean over the samples, with equal total weight of both kinds, nats
+  double standard_error = 0.0;  ///< of `log_loss`, from its variation over sites
 };
 
-/// Deviation of the prior of a calibration.
+/// Standard deviation of the prior of a calibration.
 struct PriorChoice {
   double prior_deviation = kDefaultPriorDeviation;
-  std::vector<HeldOutLoss> losses;  ///< of all deviations, ascending; empty if there are too few sites to compare them
+  std::vector<HeldOutLoss> losses;  ///< for all deviations, ascending; empty with too few sites
 };
 
-/// Chooses the deviation of the prior of fitCalibration() by leaving one site out: the samples of each site are
-/// predicted by the fit to those of all others. Of the deviations, the smallest whose loss exceeds the lowest one by no
-/// more than the standard error of that one is chosen (Hastie et al. 2009, section 7.10). Returns the default with
-/// fewer than five sites, or unless both kinds of samples are at two. Deterministic for any number of threads.
+/// Chooses the standard deviation of the prior of fitCalibration() by leave-one-site-out cross-validation: the smallest
+/// one whose loss exceeds the minimum by at most the standard error of the latter (Hastie et al. 2009, section 7.10).
+/// Returns the default with fewer than five sites, or unless samples of both kinds exist at two sites. Deterministic
+/// for any number of threads.
 PriorChoice choosePrior(const std::vector<CalibrationSample>& samples);
 
 }  // namespace fabmap_node

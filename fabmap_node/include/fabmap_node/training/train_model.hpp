@@ -16,18 +16,18 @@ struct TrainingImage {
   urban_nav_core::StampNs stamp = 0;
   PlaceObservation observation;
 };
-/// Observations of one drive in order of time. Drives should show different places.
+/// Observations of one drive in order of time. Drives should be at different places.
 using TrainingDrive = std::vector<TrainingImage>;
 
 struct TrainingOptions {
   KMeansOptions k_means;
   MatcherOptions matcher;
-  std::size_t sampled_places = 400;  ///< largest number of observations that the model stores for new places
+  std::size_t sampled_places = 400;  ///< limit of the number of observations stored for the likelihood of new places
 };
 
 struct TrainingReport {
   std::size_t observations = 0, stationary = 0, descriptors = 0;
-  std::size_t right = 0, wrong = 0;  ///< calibration samples of each kind
+  std::size_t right = 0, wrong = 0;  ///< numbers of calibration samples of each kind
 };
 
 struct TrainedModel {
@@ -35,13 +35,13 @@ struct TrainedModel {
   TrainingReport report;
 };
 
-/// Trains vocabulary, Chow-Liu tree, sampled places and calibration. Observations of a stationary camera count once.
+/// Trains vocabulary, Chow-Liu tree, sampled places and calibration. Observations of a stationary camera are used once.
 ///
 /// Calibration: each observation is compared with the others of its drive (neighbours are the same place) and with
-/// those of another drive (never the same place), by trees and sampled places of the remaining drives only. Fewer than
-/// three drives are divided into stretches that serve as drives. Places further along the same street are samples of
-/// two places. Without drives of single images, those of panoramas are calibrated with the first camera alone, for
-/// single images. `progress`: name of the step, share done. Throws UserError if there is too little to train with.
+/// those of another drive (never the same place), with trees and sampled places of the remaining drives. Fewer than
+/// three drives are divided into parts that serve as drives. Places further along the same street are samples of
+/// different places. Without drives of single images, the first camera of panoramas calibrates single images.
+/// `progress`: name of the step, share done. Throws UserError if there are too few data.
 TrainedModel trainModel(std::vector<TrainingDrive> drives, const TrainingOptions& options,
                         const std::function<void(const std::string& step, double share)>& progress = {});
 

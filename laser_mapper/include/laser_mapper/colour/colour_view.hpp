@@ -13,12 +13,12 @@
 
 namespace laser_mapper {
 
-/// An image that points can be coloured from.
+/// Image for colouring points.
 struct ColourView {
   urban_nav_core::RawCamera camera;
   urban_nav_core::Pose T_map_camera;  ///< of the optical frame, at the time of the image
   urban_nav_core::StampNs stamp = 0;
-  std::size_t image = 0;  ///< number for ImageLoader
+  std::size_t image = 0;  ///< number passed to ImageLoader
 };
 
 /// Returns an image by its number; an empty picture if it cannot be read. Called from one thread.

@@ -15,24 +15,25 @@
 
 namespace laser_mapper {
 
-/// Colours the points of a map from images (Newman et al. 2009, section 6.1): each point from the best of the views
-/// that nothing of the map hides it from, after the images' exposures and white balances have been made equal by the
-/// points that they share. Order of calls: addSurface() for all points, equalise() once, then colour(). The result does
-/// not depend on the number of threads. Not thread-safe.
+/// Colours the points of a map from images (Newman et al. 2009, section 6.1): each point from the best of the views in
+/// which it is not occluded by the map, after exposure and white balance of the images have been equalised on common
+/// points. Order of calls: addSurface() for all points, equalise() once, then colour(). The result does not depend on
+/// the number of threads. Not thread-safe.
 class Colouriser {
  public:
-  /// `voxel`: distance between points of the map, m. `cached_images`: that are kept decoded, at least 1.
+  /// `voxel`: distance between points of the map, m. `cached_images`: number of decoded images kept, at least 1.
   Colouriser(std::vector<ColourView> views, ImageLoader load, double voxel, std::size_t cached_images);
   ~Colouriser();
 
-  /// Notes what points hide. `points` are near each other.
+  /// Adds points, which are near each other, as occluders.
   void addSurface(const std::vector<MapPoint>& points);
-  /// Estimates a gain of each image and channel.
+  /// Estimates a gain per image and channel.
   void equalise();
-  /// Sets red, green and blue of the points that a view shows; the others keep theirs. Returns how many it coloured.
+  /// Sets red, green and blue of the points that are visible in a view; other points are unchanged. Returns the number
+  /// of coloured points.
   std::size_t colour(std::vector<MapPoint>& points);
 
-  /// Factors of blue, green and red by which each image is multiplied.
+  /// Returns the factors of blue, green and red for each image.
   const std::vector<std::array<float, 3>>& gains() const { return gains_; }
   std::size_t views() const { return views_.size(); }
 
@@ -47,9 +48,9 @@ class Colouriser {
   const double voxel_;
   const std::size_t cached_images_;
   std::vector<ViewData> data_;
-  urban_nav_core::EvenThinning<MapPoint> samples_;  ///< points by which images are compared
+  urban_nav_core::EvenThinning<MapPoint> samples_;  ///< points on which images are compared
   std::vector<Colour> gains_;
-  std::list<std::size_t> recent_;  ///< views of cache_, the one used last first
+  std::list<std::size_t> recent_;  ///< views in cache_, most recently used first
   std::unordered_map<
       std::size_t, std::pair<std::shared_ptr<const urban_nav_registration::Picture>, std::list<std::size_t>::iterator>>
       cache_;

@@ -11,10 +11,10 @@ namespace laser_mapper {
 
 using urban_nav_core::Geodetic;
 
-/// Returns the EPSG code of the UTM zone of a position (WGS 84); 0 nearer than 6 deg to a pole, where there is none.
+/// Returns the EPSG code of the UTM zone of a position (WGS 84); 0 within 6 deg of a pole, where none is defined.
 int utmZoneCode(const Geodetic& position);
 
-/// A projected coordinate system by its EPSG code. Not thread-safe.
+/// Projected coordinate system given by its EPSG code. Not thread-safe.
 class MapProjection {
  public:
   /// Throws UserError naming `option` if there is no such system, or if its axes are not lengths in metres.
@@ -23,9 +23,9 @@ class MapProjection {
   MapProjection(const MapProjection&) = delete;
   MapProjection& operator=(const MapProjection&) = delete;
 
-  /// Returns easting, northing and the height over the ellipsoid, m. Throws DataError outside the area of the system.
+  /// Returns easting, northing and ellipsoidal height, m. Throws DataError outside the area of the system.
   Eigen::Vector3d project(const Geodetic& position) const;
-  /// Returns the system as well-known text of 2001, as LAS files state it.
+  /// Returns the system as well-known text of 2001, the format of LAS files.
   const std::string& wkt() const { return wkt_; }
   const std::string& name() const { return name_; }
 

@@ -13,7 +13,7 @@
 
 namespace laser_mapper {
 
-/// Triangles of a surface. Their corners go round counter-clockwise as seen from where the lasers were.
+/// Triangles of a surface, with corners counter-clockwise as seen from the lasers.
 struct TriangleMesh {
   struct Vertex {
     Eigen::Vector3f p = Eigen::Vector3f::Zero();  ///< m
@@ -23,16 +23,16 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Makes triangles of the points of a map. Around each point with a normal the signed distance to its plane is averaged
-/// in a sparse grid of two edges of the map's cubes; the surface is where it is zero (surface nets: Gibson 1998). Holes
-/// narrower than some three edges of the grid are closed. Works tile by tile: in memory are three rows of tiles, and
-/// the mesh. The result does not depend on the number of threads. Not thread-safe.
+/// Triangulates the points of a map. The signed distance to the plane of each point with a normal is averaged in a
+/// sparse grid of twice the voxel edge; the surface is its zero level (surface nets: Gibson 1998). Holes narrower than
+/// about three edges of the grid are closed. Processes tile by tile: memory holds three rows of tiles and the mesh. The
+/// result does not depend on the number of threads. Not thread-safe.
 class SurfaceMesher {
  public:
-  /// `voxel`: edge of the map's cubes, m.
+  /// `voxel`: edge of the map's voxels, m.
   explicit SurfaceMesher(double voxel) : voxel_(voxel) {}
 
-  /// Adds the points of a tile, in the order of tiles. Points without a normal are left out.
+  /// Adds the points of a tile, in the order of tiles. Points without a normal are ignored.
   void add(const Tile& tile, const std::vector<MapPoint>& points);
   /// Returns the mesh of all points.
   TriangleMesh finish();
@@ -41,9 +41,9 @@ class SurfaceMesher {
   void meshRow(int y);
 
   const double voxel_;
-  std::map<Tile, std::vector<MapPoint>> tiles_;  ///< of up to three rows
+  std::map<Tile, std::vector<MapPoint>> tiles_;  ///< up to three rows of tiles
   TriangleMesh mesh_;
-  std::map<std::array<int, 3>, std::uint32_t> border_;  ///< vertices of cells that several tiles use
+  std::map<std::array<int, 3>, std::uint32_t> border_;  ///< vertices of cells used by several tiles
 };
 
 /// Returns a mesh as binary PLY: vertices with colours, faces of three vertices.

@@ -12,23 +12,24 @@
 
 namespace laser_mapper {
 
-/// Figures over all pairs of passes that measured one plane: rows of Table 4 of Newman et al. 2009. Zero without
+/// Statistics over all pairs of passes that measured one plane: rows of Table 4 of Newman et al. 2009. Zero without
 /// places.
 struct QualityFigures {
   struct Spread {
     double mean = 0.0;                            ///< over all pairs
-    double least = 0.0, largest = 0.0;            ///< of the pairs
-    double least_mean = 0.0, largest_mean = 0.0;  ///< of the means of the places
-    double sigma = 0.0;                           ///< median over the places, of their means, from noise alone
+    double least = 0.0, largest = 0.0;            ///< over the pairs
+    double least_mean = 0.0, largest_mean = 0.0;  ///< over the means of the places
+    double sigma = 0.0;                           ///< median over the places of the standard deviation of their means
+                                                  ///< due to noise only
   };
   std::size_t places = 0, patches = 0, pairs = 0;
   Spread angle;         ///< rad
   Spread displacement;  ///< m
 };
-/// Returns the figures of the places of both; sigma is the mean of theirs.
+/// Returns the statistics of the union of places; sigma is the mean of both.
 QualityFigures operator+(const QualityFigures& a, const QualityFigures& b);
 
-/// How well the passes of a map agree, measured without ground truth. Immutable, so thread-safe.
+/// Consistency of the passes of a map, measured without ground truth. Immutable, hence thread-safe.
 class MapQuality {
  public:
   MapQuality() = default;
@@ -37,12 +38,12 @@ class MapQuality {
   MapQuality(std::vector<PlanePlace> places, double voxel);
 
   const std::vector<PlanePlace>& places() const { return places_; }
-  /// Returns the figures of the walls, which the paper states; of level ground.
+  /// Return the statistics of the walls, as in the paper, and of level ground.
   QualityFigures walls() const;
   QualityFigures ground() const;
-  /// Returns the mean displacement between passes at the place that a point lies on, m; nullopt where there is none.
+  /// Returns the mean displacement between passes at the place of a point, m; nullopt if there is no place.
   std::optional<float> displacementAt(const Eigen::Vector3f& p) const;
-  /// Returns the places as a table with a heading, one row per place.
+  /// Returns the places as a table with a header, one row per place.
   std::string printCsv() const;
 
  private:
@@ -51,7 +52,7 @@ class MapQuality {
 
   double radius_ = 1.0;  ///< m
   std::vector<PlanePlace> places_;
-  std::map<Block, std::vector<std::size_t>> blocks_;  ///< places by where their centres are
+  std::map<Block, std::vector<std::size_t>> blocks_;  ///< places by position of their centres
 };
 
 }  // namespace laser_mapper

@@ -7,16 +7,16 @@
 
 namespace laser_mapper {
 
-/// How fast an odometry states that its error grows, along one session. Calls that change nothing are thread-safe.
+/// Growth rate of the error that an odometry states along a session. Const functions are thread-safe.
 class OdometryDrift {
  public:
-  /// Adds what adds up of a step's covariance: its drift_covariance, or its covariance where the odometry does not tell
-  /// the drift apart. `scale` multiplies it. A step that does not end later than the last one, or is not finite, is
-  /// left out.
+  /// Adds the accumulating part of a step's covariance: its drift_covariance, or its covariance if the odometry does
+  /// not provide the drift. `scale` multiplies it. A step that does not end later than the last one, or is not finite,
+  /// is ignored.
   void add(const urban_nav_core::RelativePose& step, double scale = 1.0);
 
-  /// Returns the covariance of (rho, phi) that a pose gains per second, m^2/s and rad^2/s, in the axes of base_link:
-  /// mean over the steps that touch `begin` ... `end`. Zero where there are none: poses then count as exact.
+  /// Returns the covariance of (rho, phi) that a pose accumulates per second, m^2/s and rad^2/s, in the axes of
+  /// base_link: mean over the steps that overlap `begin` ... `end`. Zero without steps, which means exact poses.
   urban_nav_core::Matrix6d rateDuring(urban_nav_core::StampNs begin, urban_nav_core::StampNs end) const;
 
  private:

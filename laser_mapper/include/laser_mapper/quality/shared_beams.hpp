@@ -9,26 +9,26 @@
 
 namespace laser_mapper {
 
-/// Closures by ICP between two clouds of a map: by sessions, as indices of its trajectories, and stamps.
+/// ICP closure between two clouds of a map, given by session indices and stamps.
 struct CloudClosure {
   std::size_t session_a = 0, session_b = 0;
   urban_nav_core::StampNs stamp_a = 0, stamp_b = 0;
   urban_nav_core::Constraint measured;  ///< T_a_b of base_link
 };
 
-/// Closures by ICP, and the parts of the path whose beams they rest on. Immutable, so thread-safe.
+/// ICP closures, with the parts of the path whose beams they use. Immutable, hence thread-safe.
 class SharedBeams {
  public:
-  /// `T_map_base`: must outlive it. `cloud_half_length`: of the clouds that the closures rest on, m along the path to
-  /// both sides of their stamps.
+  /// `T_map_base`: must outlive it. `cloud_half_length`: of the clouds of the closures, m along the path to either side
+  /// of their stamps.
   SharedBeams(const std::vector<const urban_nav_core::Trajectory*>& T_map_base, std::vector<CloudClosure> closures,
               double cloud_half_length);
 
-  /// Returns the constraints without what closures tell from the same beams, so that shared information counts once. A
-  /// closure has rested on beams of a constraint if its two clouds contain parts of both stretches. Its information is
-  /// spread evenly along the clouds; what lies on a constraint's stretches is carried to its poses along the trajectory
-  /// and subtracted from its information, in the directions where something is left. A constraint of which nothing is
-  /// left has zero information. `constraints`: all that there are, since those in one closure's clouds share its part.
+  /// Subtracts from the constraints the information that closures have from the same beams, so that it is counted once.
+  /// A closure shares beams with a constraint if its clouds overlap both intervals. The closure's information is
+  /// distributed evenly along the clouds; the part on a constraint's intervals is transferred to its poses along the
+  /// trajectory and subtracted, in directions where something is left. A constraint without remaining information has
+  /// zero information. `constraints`: all of them, since those within one closure's clouds share its part.
   std::vector<PlaneConstraint> discount(std::vector<PlaneConstraint> constraints) const;
 
  private:
@@ -41,10 +41,10 @@ class SharedBeams {
   struct Interval {
     std::size_t session = 0;
     double from = 0.0, to = 0.0;  ///< m
-    /// Returns the length that two intervals have in common, m.
+    /// Returns the length of the intersection of two intervals, m.
     double common(const Interval& other) const;
   };
-  /// What a closure and a constraint have in common.
+  /// Overlap of a closure and a constraint.
   struct Common {
     double length = 0.0;       ///< m along the clouds
     bool is_reversed = false;  ///< the constraint's a lies in the closure's b
@@ -57,7 +57,7 @@ class SharedBeams {
   const std::vector<CloudClosure> closures_;
   const double cloud_length_;                          ///< m
   std::vector<PathLengths> paths_;                     ///< by session
-  std::vector<std::pair<Interval, Interval>> clouds_;  ///< of the closures
+  std::vector<std::pair<Interval, Interval>> clouds_;  ///< of each closure
 };
 
 }  // namespace laser_mapper

@@ -63,7 +63,7 @@ TEST(Chain, ReportsInvalidProblems) {
   EXPECT_EQ(catchError(bad), name + " is not finite");
   bad = good;
   bad.edges[0].to = 6;
-  EXPECT_EQ(catchError(bad), "edge 0 (0 to 6) refers to a missing pose: allowed 0...5");
+  EXPECT_EQ(catchError(bad), "edge 0 (0 to 6) refers to a missing pose: expected 0...5");
   bad = good;
   bad.edges[0].to = 0;
   EXPECT_EQ(catchError(bad), "edge 0 (0 to 0) goes from a pose to itself");

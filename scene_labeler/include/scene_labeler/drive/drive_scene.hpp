@@ -12,7 +12,7 @@
 
 namespace scene_labeler {
 
-/// A return of a side laser along the path of the robot.
+/// Return of a side laser along the path of the robot.
 struct DriveReturn {
   urban_nav_core::StampNs scan = 0;                    ///< stamp of its scan
   std::uint16_t beam = 0;                              ///< index in the scan
@@ -22,27 +22,27 @@ struct DriveReturn {
   Eigen::Vector3f to_laser = Eigen::Vector3f::Zero();  ///< m, from the point to the laser at that time
 };
 
-/// An image of a side camera.
+/// Image of a side camera.
 struct SideView {
   urban_nav_core::RawCamera camera;
   urban_nav_core::Pose T_world_camera;  ///< of the optical frame, at the time of the image
   cv::Mat image;                        ///< CV_8UC3, blue, green, red
-  cv::Mat classes = {};  ///< CV_8U, SceneClass of each pixel by another source; empty: there is none of this image
+  cv::Mat classes = {};                 ///< CV_8U, SceneClass of each pixel by another source; empty: unavailable
 };
 
-/// A scene of returns thinned to one for each cube of 5 cm, the first one.
+/// Scene of returns subsampled to the first one in each cube of 5 cm.
 struct DriveScene {
   Scene scene;                                       ///< its points are relative to `origin`
   Eigen::Vector3f origin = Eigen::Vector3f::Zero();  ///< m, in the world
-  std::vector<std::uint32_t> first_of_point;   ///< index of the return that is the point, for each point of the scene
-  std::vector<std::uint32_t> point_of_return;  ///< for each return
+  std::vector<std::uint32_t> first_of_point;         ///< index of the return of each point of the scene
+  std::vector<std::uint32_t> point_of_return;        ///< for each return
 };
 
-/// Projects the points of a scene, plus `origin`, into an image, through the lens, makes it the scene's image, and
-/// finds the points that it shows.
+/// Sets the image of a scene, projects its points plus `origin` into it through the lens, and determines the visible
+/// points.
 void projectView(const SideView& view, const Eigen::Vector3f& origin, Scene& scene);
 
-/// Thins returns and projects them into an image, through the lens. An image that is empty gives a scene without one.
+/// Subsamples returns and projects them into an image, through the lens. An empty image gives a scene without one.
 DriveScene makeDriveScene(const std::vector<DriveReturn>& returns, const SideView& view);
 
 }  // namespace scene_labeler

@@ -9,38 +9,38 @@
 
 namespace scene_labeler {
 
-/// An image of a side camera along the path; without an image the returns near it are described by their shape alone.
+/// Image of a side camera along the path; without an image, returns near it are described by shape only.
 struct DriveFrame {
   urban_nav_core::StampNs stamp = 0;
   double travelled = 0.0;  ///< m along the path
   SideView view;
 };
 
-/// Takes what DriveWindow has gathered. Indices of returns count from the first return of the drive.
+/// Receives the frames of DriveWindow. Indices of returns count from the first return of the drive.
 class DriveObserver {
  public:
-  /// Stretch of the path, m, to which no other frame is nearer.
+  /// Interval of the path, m, in which no other frame is nearer.
   struct Stretch {
     double begin = 0.0, end = 0.0;
     bool holds(double travelled) const { return travelled >= begin && travelled < end; }
   };
   virtual ~DriveObserver() = default;
-  /// `returns` lie within reach of the frame along the path; `first`: index of the first of them.
+  /// `returns`: within reach of the frame along the path; `first`: index of the first of them.
   virtual void observe(const DriveFrame& frame, const Stretch& nearest, std::size_t first,
                        const std::vector<DriveReturn>& returns) = 0;
-  /// No later frame sees the returns before this index.
+  /// Returns before this index are not visible in any later frame.
   virtual void settle(std::size_t end) = 0;
 };
 
-/// Gathers the returns of one laser around each frame of the camera on its side. Returns come in order of time; of a
-/// robot that stands, at most some four million are kept. Not thread-safe.
+/// Collects the returns of one laser around each frame of the camera on its side. Returns must be in order of time; for
+/// a standing robot, at most about four million are kept. Not thread-safe.
 class DriveWindow {
  public:
   /// The observer must outlive the window. `reach`: m along the path, before and after a frame.
   DriveWindow(double reach, DriveObserver& observer) : reach_(reach), observer_(observer) {}
 
   void add(const DriveReturn& one);
-  /// Frames come in order of the path.
+  /// Frames must be in order along the path.
   void add(DriveFrame frame);
   void finish();
 
@@ -54,7 +54,7 @@ class DriveWindow {
   std::size_t first_ = 0;  // index of returns_[0]
   std::deque<DriveFrame> frames_;
   bool has_previous_ = false;
-  double previous_ = 0.0;  // travelled, of the frame before frames_.front()
+  double previous_ = 0.0;  // distance of the frame before frames_.front()
 };
 
 }  // namespace scene_labeler

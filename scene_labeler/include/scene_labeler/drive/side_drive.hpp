@@ -17,24 +17,25 @@ struct SideRig {
     urban_nav_core::Pose T_base_camera;  ///< of the optical frame
   };
   urban_nav_core::Pose T_base_laser;
-  std::optional<Camera> camera;  ///< nullopt: the returns are labelled by shape
+  std::optional<Camera> camera;  ///< nullopt: returns are labelled by shape
 };
 
-/// Longest gap between poses in which beams are rendered, ns.
+/// Longest interval between poses in which beams are rendered, ns.
 constexpr urban_nav_core::StampNs kLongestPoseGap = 500'000'000;
 
-/// Brings the scans of one side and an image every `spacing` of the path to a window. Not thread-safe.
+/// Passes the scans of one side and an image every `spacing` of the path to a window. Not thread-safe.
 class SideDrive {
  public:
-  /// Trajectory, path and window must outlive it; the trajectory may grow, with TravelledPath::update().
+  /// Trajectory, path and window must outlive this object; the trajectory may grow, with TravelledPath::update().
   SideDrive(SideRig rig, const urban_nav_core::Trajectory& T_world_base, const TravelledPath& path, double spacing,
             DriveWindow& window);
 
-  /// Adds the beams at times that the trajectory covers.
+  /// Adds the beams at times covered by the trajectory.
   void add(const urban_nav_core::PlanarScan& scan);
-  /// Returns whether an image of this time begins a new frame.
+  /// Returns whether an image at this time begins a new frame.
   bool wants(urban_nav_core::StampNs stamp) const;
-  /// Adds an image that it wants; one of another size than the camera's is left out. `classes`: SideView::classes.
+  /// Adds an image for which wants() is true; one whose size is not that of the camera is ignored. `classes`:
+  /// SideView::classes.
   void add(urban_nav_core::StampNs stamp, const cv::Mat& image, const cv::Mat& classes = {});
 
  private:
@@ -46,7 +47,7 @@ class SideDrive {
   const double spacing_;
   DriveWindow& window_;
   urban_nav_core::BeamRenderer renderer_;
-  double next_ = 0.0, latest_ = 0.0;  // m along the path: of the next frame, of the last scan
+  double next_ = 0.0, latest_ = 0.0;  // m along the path: next frame, last scan
   std::vector<urban_nav_core::LaserPoint> points_;
 };
 

@@ -8,13 +8,13 @@
 
 namespace scene_labeler {
 
-/// Distance travelled along a trajectory. Steps below 5 cm do not count: noise of standing still is no travel.
+/// Distance travelled along a trajectory. Steps below 5 cm are not counted, which excludes noise at standstill.
 class TravelledPath {
  public:
   /// The trajectory must outlive the path.
   explicit TravelledPath(const urban_nav_core::Trajectory& T_world_base) : T_world_base_(T_world_base) { update(); }
 
-  /// Takes the poses that were appended to the trajectory since.
+  /// Processes the poses appended to the trajectory since the last call.
   void update();
 
   /// Returns the distance from the first pose to the one nearest in time, m; nullopt outside the trajectory.
@@ -23,7 +23,7 @@ class TravelledPath {
  private:
   const urban_nav_core::Trajectory& T_world_base_;
   std::vector<double> travelled_;  // of each pose
-  std::size_t anchor_ = 0;         // last pose that counted as a step
+  std::size_t anchor_ = 0;         // last pose that was counted
 };
 
 }  // namespace scene_labeler

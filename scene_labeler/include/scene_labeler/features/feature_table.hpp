@@ -11,8 +11,7 @@ namespace scene_labeler {
 /// Value of a feature that could not be measured.
 constexpr float kMissingFeature = std::numeric_limits<float>::quiet_NaN();
 
-/// Numbers of features for the returns of a scene, one row per return. Missing values are NaN, and the only values that
-/// are not finite.
+/// Features of the returns of a scene, one row per return. Missing values are NaN; all others are finite.
 struct FeatureTable {
   std::vector<std::string> names;
   std::vector<float> values;  ///< row by row

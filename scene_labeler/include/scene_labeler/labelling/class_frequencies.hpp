@@ -8,23 +8,23 @@
 
 namespace scene_labeler {
 
-/// How frequent the classes are where the robot is. A model's probabilities are those of a return from anywhere on its
-/// training drives; where gravel is everywhere and paving rare, what could be either is gravel. Frequencies are
-/// estimated from the probabilities themselves by expectation maximisation (Saerens, Latinne and Decaestecker 2002),
-/// over the returns of the last quarter of a minute. Half of their logarithm is used: neighbouring returns err
-/// together. Not thread-safe.
+/// Adapts to the frequencies of classes around the robot. The probabilities of a model have the class prior of its
+/// training drives; where gravel is everywhere and paving rare, an ambiguous return is gravel. Frequencies are
+/// estimated from the probabilities by expectation maximisation (Saerens, Latinne and Decaestecker 2002), over the
+/// returns of the last quarter of a minute. Half of their logarithm is applied, because errors of adjacent returns are
+/// correlated. Not thread-safe.
 class ClassFrequencies {
  public:
-  /// A model that does not know the frequencies of its training (LabelModel::samples) leaves all as it is.
+  /// A model without the frequencies of its training data (LabelModel::samples) leaves probabilities unchanged.
   explicit ClassFrequencies(const LabelModel& model);
 
-  /// Corrects the log probabilities of some returns, one row of all classes each, to the frequencies of those before
-  /// and of these. Rows whose `is_left_out` is 1 stay as they are and do not count: what a model says of a kind of
-  /// place that it was not trained in (isNewPlace) is no measurement. Empty: none is left out.
+  /// Corrects the log probabilities of returns, one row of all classes each, to the frequencies of these and earlier
+  /// returns. Rows whose `is_left_out` is 1 are unchanged and not counted, since the answers in a kind of place without
+  /// training data (isNewPlace) are unreliable. Empty: none is left out.
   void correct(std::vector<float>& logs, const std::vector<std::uint8_t>& is_left_out = {});
 
  private:
-  /// What these sums of probabilities add to the log probability of each class.
+  /// Returns the correction of each class's log probability for these sums of probabilities.
   std::vector<float> shifts(const std::vector<double>& sums) const;
 
   std::size_t classes_ = 0;

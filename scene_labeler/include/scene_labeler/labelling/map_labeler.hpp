@@ -14,33 +14,34 @@
 
 namespace scene_labeler {
 
-/// Label of a point of a map. The probability has steps of 1/255.
+/// Label of a map point. The probability has a resolution of 1/255.
 struct PointLabel {
   SceneClass label = SceneClass::None;
   std::uint8_t probability = 0;  ///< times 255
   bool is_unsure = true;
 };
 
-/// An image that can be loaded, and its place in the map.
+/// Loadable image with its pose in the map.
 struct PlacedView {
   urban_nav_core::RawCamera camera;
   urban_nav_core::Pose T_map_camera;  ///< of the optical frame, at the time of the image
-  std::size_t image = 0;              ///< number for MapLabeler::Callbacks::load
-  std::size_t device = 0;             ///< number of the camera that took it: views of one camera share their mounting
+  std::size_t image = 0;              ///< number passed to MapLabeler::Callbacks::load
+  std::size_t device = 0;             ///< number of the camera: views of one camera share their mounting
 };
 
-/// What became of an image.
+/// Use of an image.
 struct ViewUse {
-  std::size_t shown = 0;        ///< points that it labels; 0 of an image that is black, saturated, empty or upside down
-  bool is_upside_down = false;  ///< its camera seems to be mounted upside down: it is not used
-  bool is_new_place = false;    ///< of a kind that the model was not trained in (isNewPlace)
-  bool has_classes = false;     ///< a class image of another source was used as well
+  std::size_t shown = 0;        ///< points that it labels; 0 for an image that is black, saturated, empty or upside
+                                ///< down
+  bool is_upside_down = false;  ///< its camera appears to be mounted upside down: not used
+  bool is_new_place = false;    ///< place of a kind that is not in the training data (isNewPlace)
+  bool has_classes = false;     ///< a class image of another source was also used
 };
 
-/// Labels the points of a map, each from all images that show it, the others by shape and by what the images say of
-/// their surroundings. Class images of another source count as further views. Points come in rows along y, and are kept
-/// until the labels of their surroundings are known, so that memory depends on the width of the map, not on its length.
-/// The result depends on the order of points and views only by rounding, and not on the number of threads. Not
+/// Labels the points of a map, each from all images in which it is visible, the others by shape and by the labelled
+/// points around them. Class images of another source are further views. Points must be added in rows along y and are
+/// kept until the labels of their surroundings are known, so that memory depends on the width of the map, not on its
+/// length. The result depends on the order of points and views only by rounding, and not on the number of threads. Not
 /// thread-safe.
 class MapLabeler {
  public:
@@ -50,10 +51,10 @@ class MapLabeler {
     double class_accuracy = 0.8;  ///< share of the pixels of class images that are right
   };
   struct Callbacks {
-    /// Returns an image (CV_8UC3, blue, green, red) by its number; an empty one if there is none.
+    /// Returns an image (CV_8UC3, blue, green, red) by its number; an empty one if unavailable.
     std::function<cv::Mat(std::size_t image)> load;
-    /// Returns the classes of the same image by another source (CV_8U, SceneClass); an empty image if there are none.
-    /// May be empty.
+    /// Returns the classes of the same image by another source (CV_8U, SceneClass); an empty image if unavailable. May
+    /// be empty.
     std::function<cv::Mat(std::size_t image)> load_classes;
     /// Called after each image.
     std::function<void(std::size_t image, const ViewUse& use)> take_view;
@@ -64,24 +65,24 @@ class MapLabeler {
   /// The model must outlive the labeler.
   MapLabeler(const LabelModel& model, const Options& options, std::vector<PlacedView> views, Callbacks callbacks);
 
-  /// Adds points, m, some 5 cm apart. `reflectance`: one per point, that of the robot's lasers without the influence of
-  /// range and incidence.
+  /// Adds points, m, about 5 cm apart. `reflectance`: one per point, from the robot's lasers, normalised for range and
+  /// incidence.
   void addPoints(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& reflectance);
-  /// Labels what it can: no later point will have a y below this.
+  /// Labels all points whose surroundings are complete. Later points must have a y of at least this value.
   void sweepTo(double y);
-  /// Labels all other points.
+  /// Labels all remaining points.
   void finish();
 
   /// Returns the number of points that wait for labels of their surroundings.
   std::size_t heldPoints() const { return held_; }
 
  private:
-  using Square = std::pair<int, int>;  // of the ground: row along y, column along x
+  using Square = std::pair<int, int>;  // on the ground: row along y, column along x
   struct SquarePoints {
     std::vector<std::size_t> numbers;
     std::vector<Eigen::Vector3f> points;
     std::vector<std::uint8_t> reflectance, is_shown;
-    std::vector<float> logs;  // of each point one for each class, summed over views
+    std::vector<float> logs;  // per point and class, summed over views
     std::vector<std::uint16_t> views, unsure, in_new_place;
   };
   struct Member {
@@ -93,12 +94,12 @@ class MapLabeler {
   std::vector<Member> pointsAround(const Square& middle, int margin);
   static Scene makeScene(const std::vector<Member>& members);
   void labelView(const PlacedView& view);
-  /// Adds what the class image of a view says of the points that the view has labelled. Returns false without one.
+  /// Adds the class image of a view for the points labelled by that view. Returns false without one.
   bool voteByClasses(const PlacedView& view, const SceneView& shown, const std::vector<Member>& members);
-  /// Returns the mounting of a camera, as far as its images have shown it.
+  /// Returns the mounting check of a camera, which accumulates over its images.
   MountingCheck& findMounting(std::size_t device);
   void labelHidden(const Square& square, const SquarePoints& own);
-  /// Uses the labels that images gave for the points of a square that no image shows.
+  /// Propagates labels from images to the points of a square that are not visible in any image.
   void spreadInSquare(const std::vector<Member>& members, const std::vector<std::uint8_t>& is_asked);
   void vote(const std::vector<Member>& members, const SceneLabels& labels, bool by_image);
   void giveLabels(const SquarePoints& square);
@@ -110,7 +111,7 @@ class MapLabeler {
   const Callbacks callbacks_;
   ClassFrequencies frequencies_;
   std::size_t next_view_ = 0, next_point_ = 0, held_ = 0;
-  int next_row_;  // of squares: those before have their labels
+  int next_row_;  // of squares: earlier ones are labelled
   std::map<Square, SquarePoints> squares_;
   std::map<std::size_t, MountingCheck> mountings_;  // by device
 };

@@ -8,24 +8,24 @@
 
 namespace scene_labeler {
 
-/// Finds a camera that is mounted upside down, or whose calibration is that of such a one: the image turned by 180 deg
-/// then agrees better than the image itself with what the shape of the returns says: whether they are ground, wall,
-/// foliage or something else. Not thread-safe.
+/// Detects a camera that is mounted upside down, or has the calibration of such a camera: the image rotated by 180 deg
+/// then agrees better than the image itself with the classification of the returns by shape as ground, wall, foliage or
+/// other. Not thread-safe.
 class MountingCheck {
  public:
   /// The model must outlive the check.
   explicit MountingCheck(const LabelModel& model) : model_(model) {}
 
-  /// Adds a scene with an image and its features (measureSceneFeatures()), unless enough were seen.
+  /// Adds a scene with an image and its features (measureSceneFeatures()), unless enough were added.
   void add(const Scene& scene, const FeatureTable& table);
-  /// Returns whether the frames so far speak for a camera that is upside down.
+  /// Returns whether the frames so far indicate an upside-down camera.
   bool isUpsideDown() const { return frames_ >= kLeastFrames && evidence_ > kLeastEvidence; }
-  /// Returns the mean over the returns by how much the turned image is more likely, as a difference of logarithms.
+  /// Returns the mean log likelihood ratio, over the returns, of the rotated to the original image.
   double evidence() const { return frames_ > 0 ? evidence_ / static_cast<double>(frames_) : 0.0; }
 
  private:
-  static constexpr std::size_t kLeastFrames = 2;  // one image alone tells nothing
-  static constexpr double kLeastEvidence = 0.1;   // summed over frames; upright ones have -0.04 to -0.35 each
+  static constexpr std::size_t kLeastFrames = 2;  // one image is not sufficient
+  static constexpr double kLeastEvidence = 0.1;   // summed over frames; upright images have -0.04 to -0.35 each
 
   const LabelModel& model_;
   double evidence_ = 0.0;  // summed over frames

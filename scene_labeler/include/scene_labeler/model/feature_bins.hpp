@@ -20,14 +20,14 @@ class FeatureBins {
 
   std::size_t columns() const { return edges_.size(); }
   std::uint8_t code(std::size_t column, float value) const;
-  /// Writes one code for each value of a row.
+  /// Writes one code per value of a row.
   void encode(const float* row, std::uint8_t* codes) const;
   /// Returns a value with this code; NaN for 0.
   float decode(std::size_t column, std::uint8_t code) const;
   void archive(urban_nav_core::Archive& archive);
 
  private:
-  std::vector<std::vector<float>> edges_;  // of each column, ascending, at most kCodeCount - 2
+  std::vector<std::vector<float>> edges_;  // per column, ascending, at most kCodeCount - 2
 };
 
 }  // namespace scene_labeler

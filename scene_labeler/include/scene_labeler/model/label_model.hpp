@@ -19,49 +19,49 @@ namespace scene_labeler {
 enum class ClassifierKind : std::uint8_t { Svm, Forest, Boosted };
 const char* toString(ClassifierKind kind);
 
-/// Ranges of features in the training data, to find returns unlike any of it.
+/// Ranges of features in the training data, for the detection of returns outside them.
 struct NoveltyRanges {
-  std::vector<float> low_values, high_values;  ///< beyond these a value lies outside the training data
+  std::vector<float> low_values, high_values;  ///< values outside this range are outside the training data
   std::uint32_t limit = 3;                     ///< a return with more features outside is unlike the training data
 
   void archive(urban_nav_core::Archive& archive);
 };
 
-/// A trained classifier with everything that applying it takes.
+/// Trained classifier with all data required to apply it.
 struct LabelModel {
   ClassifierKind kind = ClassifierKind::Boosted;
   FeatureSet features = FeatureSet::All;
-  std::vector<SceneClass> classes;  ///< that it knows, ascending
+  std::vector<SceneClass> classes;  ///< known classes, ascending
   FeatureBins bins;
   TreeEnsemble trees;  ///< forest and boosted
   SvmBank svm;         ///< svm
   Calibration calibration;
   Calibration patch_calibration;  ///< of the fused scores of patches
-  double correlation = 1.0;       ///< of the errors of returns in a patch, 0...1
+  double correlation = 1.0;       ///< of the errors of returns within a patch, 0...1
   NoveltyRanges novelty;
-  std::string device;                ///< whose reflectance it was trained with; that of other devices is not used
-  std::vector<std::string> sources;  ///< names of the scenes or sessions it was trained on
-  ModelSamples samples;              ///< to continue training from; empty in models of version 2
-  PlaceNovelty place_novelty;        ///< of the samples; not in the file
+  std::string device;                ///< device of the reflectance in training; that of other devices is ignored
+  std::vector<std::string> sources;  ///< names of the training scenes or sessions
+  ModelSamples samples;              ///< for continued training; empty in models of version 2
+  PlaceNovelty place_novelty;        ///< computed from the samples; not in the file
 
-  /// Writes log probabilities of a row of features, one for each class.
+  /// Writes log probabilities of a row of features, one per class.
   void logProbabilities(const float* row, float* logs) const;
-  /// Returns how many features of a row lie outside the training data.
+  /// Returns the number of features of a row outside the training data.
   std::uint32_t countOutside(const float* row) const;
-  /// Everything but the samples.
+  /// Reads or writes everything except the samples.
   void archive(urban_nav_core::Archive& archive);
 };
 
 /// Returns the bytes of a model, with its version and a checksum.
 std::string printModel(LabelModel model);
-/// Reads a model of this version or the one before it. Throws UserError with `name` if the bytes are damaged, no model,
+/// Reads a model of this or the previous version. Throws UserError with `name` if the bytes are damaged, not a model,
 /// or of another version.
 LabelModel parseModel(std::string_view bytes, const std::string& name);
 
-/// Returns the model that is part of the library, from simulated drives, and its bytes.
+/// Return the built-in model, trained on simulated drives, and its bytes.
 LabelModel defaultModel();
 std::string_view defaultModelBytes();
-/// Reads the model that the parameter `model` names: a file, or `default`. Throws UserError as parseModel().
+/// Reads the model given by the parameter `model`: a file, or `default`. Throws UserError like parseModel().
 LabelModel readModel(const std::string& path);
 
 /// Returns the digest of the bytes of a model: 16 hexadecimal digits (FNV-1a).

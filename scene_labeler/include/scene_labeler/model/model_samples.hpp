@@ -9,15 +9,14 @@
 
 namespace scene_labeler {
 
-/// Training samples that a model holds, so that training can continue from them. Features are codes of the model's
-/// bins.
+/// Training samples stored in a model, so that training can be continued. Features are codes of the model's bins.
 struct ModelSamples {
   std::vector<std::string> folds;     ///< names of sessions or scenes, ascending
-  std::vector<std::uint8_t> codes;    ///< sample by sample
-  std::vector<std::uint8_t> labels;   ///< one per sample: position among the classes of the model
+  std::vector<std::uint8_t> codes;    ///< per sample
+  std::vector<std::uint8_t> labels;   ///< one per sample: index among the classes of the model
   std::vector<std::uint8_t> weights;  ///< one per sample, at least 1
-  std::vector<std::uint16_t> places;  ///< one per sample: position in `folds`
-  std::vector<float> frequencies;     ///< of each class of the model, number of returns in the data for calibration
+  std::vector<std::uint16_t> places;  ///< one per sample: index in `folds`
+  std::vector<float> frequencies;     ///< per class of the model, number of returns in the calibration data
 
   std::size_t size() const { return labels.size(); }
   bool empty() const { return labels.empty(); }

@@ -13,19 +13,19 @@
 
 namespace scene_labeler {
 
-/// How unlike the places of its training a model finds a scene. Distances between returns are sums of differences
-/// between the codes of some features: those of the wider window of the image, or those of the shape. A return is
-/// unlike the training data if no sample is as near to it as 95 % of the samples are to those of other drives or
-/// scenes: in a place of a known kind 5 % are. Thread-safe once made.
+/// Measures how much a scene differs from the training places of a model. Distances between returns are sums of
+/// differences between codes of some features: those of the image's wider window, or those of the shape. A return is
+/// novel if its nearest sample is farther than the nearest sample of another drive or scene is for 95 % of the samples;
+/// in a place of a known kind 5 % of the returns are novel. Immutable after construction, hence thread-safe.
 class PlaceNovelty {
  public:
-  /// Finds nothing unlike the training, as does a model without samples, or with those of one drive alone.
+  /// Reports no novelty, like a model without samples or with those of a single drive.
   PlaceNovelty() = default;
   PlaceNovelty(FeatureSet features, const FeatureBins& bins, const ModelSamples& samples);
 
-  /// Returns the share of unlike ones among at most 200 of the returns, evenly drawn from those for which `is_asked` is
-  /// not 0 (one per row of the table): by look, of those that an image shows, or by shape, whichever is larger. 0 of
-  /// fewer than 20.
+  /// Returns the share of novel returns among at most 200, evenly subsampled from those for which `is_asked` is not 0
+  /// (one per row of the table): by image features of visible returns, or by shape, whichever is larger. 0 with fewer
+  /// than 20.
   double shareUnlike(const FeatureBins& bins, const FeatureTable& table,
                      const std::vector<std::uint8_t>& is_asked) const;
 
@@ -33,11 +33,11 @@ class PlaceNovelty {
   static constexpr std::size_t kMostColumns = 16;
   using Codes = std::array<std::uint8_t, kMostColumns>;
 
-  /// Some features, and what the samples have of them.
+  /// Subset of features, with the samples' values of them.
   struct Aspect {
-    std::vector<std::size_t> columns;  // the first one is missing in returns without this aspect
+    std::vector<std::size_t> columns;  // the first one is missing in returns without these features
     std::vector<Codes> samples;
-    int limit = 0;  // distance; beyond it a return is unlike the samples
+    int limit = 0;  // distance beyond which a return is novel
 
     Codes encode(const FeatureBins& bins, const float* row) const;
     bool hasNear(const Codes& codes) const;
@@ -49,16 +49,16 @@ class PlaceNovelty {
   Aspect look_, shape_;
 };
 
-/// Whether so many returns, over a fifth, are unlike the training data that this is a kind of place the model was not
-/// trained in.
+/// Returns whether the share of novel returns, over a fifth, indicates a kind of place that is not in the training
+/// data.
 bool isNewPlace(double share_unlike);
 
-/// Returns the warning that so many of the frames show such a place; empty if less than a quarter of them do.
+/// Returns a warning with the number of frames in such places; empty if they are less than a quarter of all.
 std::string newPlaceWarning(std::size_t new_place_frames, std::size_t frames);
 
-/// Takes back half of what a model says of kinds of ground, and of kinds of other things: that much of the probability
-/// of all of them is divided evenly among them, as in a place of a new kind a model is right about half the time. Less
-/// of it from a tenth of unlike returns on, nothing below. `probabilities`: one for each of `classes`.
+/// Reduces the confidence between kinds of ground, and between kinds of other objects: half of the probability of all
+/// of them is distributed evenly among them, since in a place of a new kind a model is right about half the time. The
+/// share decreases to zero at a tenth of novel returns. `probabilities`: one per `classes`.
 void doubtKinds(double share_unlike, const std::vector<SceneClass>& classes, float* probabilities);
 
 }  // namespace scene_labeler

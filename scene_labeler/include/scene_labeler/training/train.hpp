@@ -13,16 +13,16 @@ struct TrainingOptions {
   FeatureSet features = FeatureSet::All;
   std::size_t samples_per_class = 3000;  ///< over all folds
   std::uint64_t seed = 1;
-  std::string device = {};  ///< of the reflectance in the folds, as in Scene::device
-  /// Model that training continues from, with its samples among the folds (restoreFolds()): the ranges of its features
-  /// stay, and its fusion of patches where no fold has patches.
+  std::string device = {};  ///< device of the reflectance in the folds, as in Scene::device
+  /// Model from which training continues, with its samples among the folds (restoreFolds()): the ranges of its features
+  /// are kept, and its fusion of patches if no fold has patches.
   const LabelModel* base = nullptr;
-  /// Adds trees to those of a boosted base, whose calibration stays, instead of training anew: for folds that add
-  /// corrections alone. The samples that a model holds are fewer than those that it was trained with.
+  /// Adds trees to those of a boosted base, whose calibration is kept, instead of training from scratch; for folds that
+  /// only add corrections. A model stores fewer samples than it was trained with.
   bool adds_trees = false;
 };
 
-/// Values of the settings that cross-validation compared.
+/// Values of settings compared by cross-validation.
 struct ValidatedSetting {
   std::vector<std::pair<std::string, double>> values;
   double f1_mean = 0.0;  ///< over the classes of the held-out folds
@@ -30,15 +30,15 @@ struct ValidatedSetting {
 
 struct TrainedModel {
   LabelModel model;
-  std::vector<std::pair<SceneClass, std::size_t>> samples;  ///< number of each class
+  std::vector<std::pair<SceneClass, std::size_t>> samples;  ///< number per class
   std::size_t folds = 0;
   std::vector<ValidatedSetting> cross_validation;  ///< empty if trees were added to a base
-  std::size_t chosen = 0;                          ///< of cross_validation
+  std::size_t chosen = 0;                          ///< index in cross_validation
 };
 
 /// Trains a classifier: settings by cross-validation over folds, calibration on the held-out folds. `progress`: share
-/// that is done. Deterministic for any number of threads and any order of folds. Throws DataError if there are fewer
-/// than two classes.
+/// of the work done. Deterministic for any number of threads and any order of folds. Throws DataError if there are
+/// fewer than two classes.
 TrainedModel trainModel(std::vector<TrainingFold> folds, const TrainingOptions& options,
                         const std::function<void(double)>& progress);
 

@@ -10,15 +10,15 @@
 
 namespace scene_labeler {
 
-/// A scene with labels, measured.
+/// Labelled scene with its features.
 struct TrainingScene {
-  std::string fold;  ///< session or scene: neighbours are never divided between folds
+  std::string fold;  ///< session or scene, never split between folds
   FeatureTable features;
-  std::vector<SceneClass> labels;      ///< one per return; None does not count
-  std::vector<std::uint32_t> patches;  ///< of makePatches()
+  std::vector<SceneClass> labels;      ///< one per return; None is ignored
+  std::vector<std::uint32_t> patches;  ///< from makePatches()
 };
 
-/// Returns of one class or patch in one fold, with their features.
+/// Returns of one fold, with their features.
 struct FoldRows {
   std::vector<float> values;           ///< row by row
   std::vector<SceneClass> labels;      ///< one per row
@@ -26,28 +26,28 @@ struct FoldRows {
   std::vector<float> weights;          ///< one per row
 };
 
-/// Training data of one fold: samples for the classifier, evenly drawn from each class, and whole patches in their
+/// Training data of one fold: samples for the classifier, evenly subsampled per class, and whole patches with their
 /// natural frequencies for calibration.
 struct TrainingFold {
   std::string name;
   FoldRows samples, held_out;
 };
 
-/// Bounds of what is kept of a scene.
+/// Limits of the data kept per scene.
 struct SamplingLimits {
-  std::size_t samples_per_class = 2000;  ///< of each scene
-  std::size_t held_out = 12000;          ///< of each scene
+  std::size_t samples_per_class = 2000;  ///< per scene
+  std::size_t held_out = 12000;          ///< per scene
 };
 
-/// Draws the training data of a scene, the same ones for the same scene. Adds to the fold of its name.
+/// Draws the training data of a scene, deterministically, and adds them to the fold of its name.
 void addScene(const TrainingScene& scene, const SamplingLimits& limits, std::vector<TrainingFold>& folds);
 
-/// Adds a fold, or its data to the fold of its name.
+/// Adds a fold, or merges its data into the fold of its name.
 void mergeFold(TrainingFold fold, std::vector<TrainingFold>& folds);
 
-/// Adds a scene that is the only one as two folds, NAME/1 and NAME/2, divided at the middle of its longer horizontal
-/// extent: calibration then has data that the classifier was not fitted to, although of the same place. Requires
-/// labels of None for points that are not finite.
+/// Adds a single scene as two folds, NAME/1 and NAME/2, split at the middle of its longer horizontal extent, so that
+/// calibration uses data to which the classifier was not fitted, although of the same place. Requires labels of None
+/// for points that are not finite.
 void addHalves(const TrainingScene& training, const Scene& scene, const SamplingLimits& limits,
                std::vector<TrainingFold>& folds);
 

@@ -6,16 +6,16 @@
 
 namespace urban_nav::bench {
 
-/// A camera of the bus, started, on a clock that steps to where it waits for. Its frames lie in memory: what it takes
-/// to hand one out is the copy that a ring of buffers costs too.
+/// A started camera of the bus with a simulated clock, which advances to the time it waits for. Frames are in memory;
+/// handing one out costs one copy, as with a ring of buffers.
 struct CameraSession {
   std::string name;
   double period = 0.0;  ///< s between frames
-  /// Goes on until so many frames have been sent since the start; gives how many were handed out meanwhile.
+  /// Runs until `frames` frames have been sent since the start. Returns the number of frames handed out in this call.
   std::function<int(int frames)> run_until;
 };
 
-/// Calls `visit` with the robot's two cameras, one after the other: 20 pairs a second, and a panorama each 0.3 s.
+/// Calls `visit` with each of the two cameras of the robot: 20 pairs per second, and a panorama every 0.3 s.
 void forEachCamera(const std::function<void(const CameraSession&)>& visit);
 
 }  // namespace urban_nav::bench

@@ -8,11 +8,11 @@
 
 namespace urban_nav::bench {
 
-/// Puts the scans of a simulated bag and the places of its lasers into a store, as a session; commits.
+/// Writes the scans of a simulated bag and the extrinsics of its lasers to a store, as a session. Commits.
 void putLaserSession(const std::string& bag, const urban_nav_store::SessionId& id, const std::string& name,
                      urban_nav_store::Store& store);
 
-/// Poses of base_link, from BAG_STEM.truth/trajectory.tum.
+/// Returns the true poses of base_link, from BAG_STEM.truth/trajectory.tum.
 urban_nav_core::Trajectory trueTrajectory(const std::string& bag);
 
 }  // namespace urban_nav::bench

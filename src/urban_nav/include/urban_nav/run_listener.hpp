@@ -6,7 +6,7 @@
 
 namespace urban_nav {
 
-/// Receives what a command would print, for programs that call the suite as a library.
+/// Receives the output of a command, for programs that call the suite as a library.
 class RunListener {
  public:
   enum class Kind { Result, Info, Warning, Error };
@@ -16,9 +16,9 @@ class RunListener {
   RunListener& operator=(const RunListener&) = delete;
   virtual ~RunListener() = default;
 
-  /// May be called in any thread of the run. An exception in the thread of the call ends the run.
+  /// Called from any thread of the run. An exception in the calling thread of runCommand() ends the run.
   virtual void takeLine(Kind kind, const std::string& line) = 0;
-  /// Called in the thread of the call, as often as the work advances: `done` of `total` units; `total` 0: unknown. An
+  /// Called in the calling thread of runCommand() at each progress: `done` of `total` units; `total` 0: unknown. An
   /// exception ends the run, which can be resumed as after an interruption.
   virtual void takeProgress(const std::string& label, std::int64_t done, std::int64_t total) = 0;
 };

@@ -20,7 +20,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-/// "out" of "-o,--out", "INPUT" of "INPUT".
+/// Returns the key of an option: "out" for "-o,--out", "INPUT" for "INPUT".
 std::string toKey(const Option& option) {
   const std::size_t dashes = option.name.rfind("--");
   return dashes == std::string::npos ? option.name : option.name.substr(dashes + 2);
@@ -74,19 +74,18 @@ std::string summaryLines(const std::vector<Command>& commands) {
 
 std::string generalHelp(const std::vector<Command>& commands) {
   std::string text =
-      "urban_nav: what a robot's cameras and lasers saw, turned into a trajectory, a map, and a report on how far to "
-      "trust both.\n\n"
+      "urban_nav: turns the camera and laser recordings of a robot into a trajectory, a map and a report on their "
+      "accuracy.\n\n"
       "usage: urban_nav COMMAND [options]      (urban_nav COMMAND --help for more; urban_nav --version)\n"
       "       urban_nav --python-path          (folder for PYTHONPATH with which `import urban_nav` works)\n\n";
-  return text + summaryLines(commands) +
-         "\nexit status: 0 done, 1 the data did not allow it, 2 a mistake in the call\n";
+  return text + summaryLines(commands) + "\nexit status: 0 success, 1 unsuitable data, 2 error in the call\n";
 }
 
 bool isHelpWord(const std::string& word) {
   return word == "--help" || word == "--help-all" || word == "-h" || word == "help";
 }
 
-/// Returns the text of an option of the program itself; nullopt for another word.
+/// Returns the output of an option of the program itself (--help, --version); nullopt for other words.
 std::optional<std::string> generalText(const std::vector<Command>& commands, const std::string& word) {
   if (isHelpWord(word)) return generalHelp(commands);
   if (word == "--version") return "urban_nav " + suiteVersion() + "\n";
@@ -115,7 +114,7 @@ void checkRequired(const Command& command, const Arguments& arguments) {
   }
 }
 
-/// Checks an argument that is given by name: CLI11 does that for words.
+/// Checks an argument given by name; CLI11 checks those of a command line.
 void checkNamed(const Command& command, const std::string& key, const std::vector<std::string>& given) {
   const std::string where = "urban_nav " + command.name;
   const auto option =
@@ -127,13 +126,13 @@ void checkNamed(const Command& command, const std::string& key, const std::vecto
   }
   const bool is_flag = option->value.empty() && !isPositional(*option);
   const bool has_value = !given.empty() && !(given.size() == 1 && given.front() == "true");
-  if (is_flag && has_value) throw UserError(where, key + " = " + given.front(), "on or off: it takes no value");
+  if (is_flag && has_value) throw UserError(where, key + " = " + given.front(), "no value: it is a switch");
   if (given.empty()) throw UserError(where, key + " has no value", option->value.empty() ? "a value" : option->value);
   if (given.size() > 1 && !option->repeatable)
     throw UserError(where, key + " has " + std::to_string(given.size()) + " values", "one");
 }
 
-/// CLI11 splits the words; what they mean is checked here, so that --help works beside anything else.
+/// Parses a command line by CLI11. Values are checked here, so that --help works with any other arguments.
 Arguments parse(const Command& command, const ParameterTables& tables, int argc, const char* const* argv) {
   CLI::App app(command.summary, "urban_nav " + command.name);
   app.set_help_flag();
@@ -194,13 +193,13 @@ const Command& findCommand(const std::vector<Command>& commands, const std::stri
                   urban_nav_core::joined(names));
 }
 
-/// A command with actions: the word after it names one.
+/// Runs an action of a command, named by the next word.
 int runAction(const Command& group, const ParameterTables& tables, int argc, const char* const* argv,
               Console& console) {
   const std::string name = argc > 1 ? argv[1] : "";
   if (isHelpWord(name)) {
     console.print(group.summary + "\n\nusage: urban_nav " + group.name + " ACTION [options]      (urban_nav " +
-                  group.name + " ACTION --help says more)\n\n" + summaryLines(group.actions));
+                  group.name + " ACTION --help for more)\n\n" + summaryLines(group.actions));
     return 0;
   }
   Command action = findCommand(group.actions, name, "urban_nav " + group.name, "action");
@@ -274,7 +273,7 @@ int runCommandLine(const std::vector<Command>& commands, const ParameterTables& 
     const Command& command = findCommand(commands, name, "urban_nav", "command");
     const int status = command.actions.empty() ? runCommand(command, tables, argc - 1, argv + 1, console)
                                                : runAction(command, tables, argc - 1, argv + 1, console);
-    if (std::ferror(stdout) != 0) throw UserError("standard output", "could not be written", "a disk with room");
+    if (std::ferror(stdout) != 0) throw UserError("standard output", "could not be written", "free disk space");
     return status;
   } catch (const DataError& error) {
     console.error(error.what());
@@ -283,7 +282,7 @@ int runCommandLine(const std::vector<Command>& commands, const ParameterTables& 
     console.error(error.what());
     return 2;
   } catch (const std::exception& error) {
-    console.error(std::string("could not go on: ") + error.what());
+    console.error(std::string("aborted: ") + error.what());
     return 1;
   }
 }
@@ -304,15 +303,15 @@ int runCommandByName(const std::vector<Command>& commands, const ParameterTables
 }
 
 Option jsonOption() { return {"--json", "FILE", "a machine-readable summary", false, false, {}}; }
-Option setOption() { return {"--set", "STAGE.KEY=VALUE", "one parameter; stands above --config", false, true, {}}; }
+Option setOption() { return {"--set", "STAGE.KEY=VALUE", "one parameter; overrides --config", false, true, {}}; }
 Option configOption() { return {"--config", "FILE", "parameters as YAML: stage, then key: value", false, true, {}}; }
 Option threadsOption() {
-  return {"--threads", "N", "threads to use (default: one per core); the results are the same", false, false, {}};
+  return {"--threads", "N", "threads to use (default: one per core); without effect on the results", false, false, {}};
 }
 Option transformOption() {
   return {"--transform",
           "PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW",
-          "place of a frame (m, quaternion), which takes precedence over the recording's tf; repeatable",
+          "pose of a frame (m, quaternion), overrides the tf of the recording; repeatable",
           false,
           true,
           {}};

@@ -19,14 +19,14 @@ using ParameterTables = std::function<void(ParameterSet&)>;
 /// One option or positional argument of a command.
 struct Option {
   std::string name;      ///< "--out", "-o,--output", or "INPUT" for a positional argument
-  std::string value;     ///< what stands for the value in the help: "DIR"; empty: a flag
-  std::string sentence;  ///< what it does, with the default
+  std::string value;     ///< placeholder of the value in the help: "DIR"; empty: a flag
+  std::string sentence;  ///< effect and default, for the help
   bool required = false;
   bool repeatable = false;
   std::vector<std::string> words;  ///< allowed values; empty: any
 };
 
-/// What the user gave. Options are asked for by their long name without dashes ("out"), positionals by theirs
+/// Arguments of a call. Options are accessed by their long name without dashes ("out"), positionals by their name
 /// ("INPUT").
 class Arguments {
  public:
@@ -38,14 +38,14 @@ class Arguments {
     if (tables_) tables_(set);
   }
   bool has(const std::string& name) const { return values_.count(name) != 0; }
-  /// The last value given; empty if there is none.
+  /// Returns the last value; nullopt without one.
   std::optional<std::string> find(const std::string& name) const;
   std::string get(const std::string& name, const std::string& otherwise = "") const;
-  /// All values of a repeatable option.
+  /// Returns all values of a repeatable option.
   std::vector<std::string> all(const std::string& name) const;
-  /// A list "a,b,c"; repeated options add up.
+  /// Returns the elements of a list "a,b,c"; lists of a repeated option are concatenated.
   std::vector<std::string> list(const std::string& name) const;
-  /// A whole number within [low, high]; UserError if it is none.
+  /// Returns an integer within [low, high]. Throws UserError for other text.
   std::int64_t integer(const std::string& name, std::int64_t otherwise, std::int64_t low, std::int64_t high) const;
   double number(const std::string& name, double otherwise, double low, double high) const;
 
@@ -54,9 +54,9 @@ class Arguments {
   ParameterTables tables_;
 };
 
-/// A subcommand: what it takes and what it does. `run` returns the exit status 0 or 1, and throws UserError (2) or
-/// DataError (1). A command with actions (`urban_nav places train`) has nothing but its name, summary and actions; each
-/// action is a command with options and help of its own.
+/// A subcommand with its options. `run` returns the exit status 0 or 1, and throws UserError (2) or DataError (1). A
+/// command with actions (`urban_nav places train`) has only a name, a summary and actions; each action is a command
+/// with its options and help.
 struct Command {
   std::string name;
   std::string summary;
@@ -67,8 +67,8 @@ struct Command {
   std::vector<Command> actions = {};
 };
 
-/// Parses, runs, and turns errors into lines and exit statuses: 0 done; 1 the data did not allow it; 2 the user's
-/// mistake. `tables`: of the parameters that --set, --config and --help know.
+/// Parses the command line, runs the command and converts errors to messages and exit statuses: 0 success; 1
+/// unsuitable data; 2 error of the user. `tables`: parameters of --set, --config and --help.
 int runCommandLine(const std::vector<Command>& commands, const ParameterTables& tables, int argc,
                    const char* const* argv);
 
@@ -78,7 +78,7 @@ int runCommandLine(const std::vector<Command>& commands, const ParameterTables& 
 int runCommandByName(const std::vector<Command>& commands, const ParameterTables& tables, const std::string& name,
                      const std::map<std::string, std::vector<std::string>>& values, Console& console);
 
-/// The options that every command has (--json, --set, --config, --threads): appended where a command wants them.
+/// Options common to all commands (--json, --set, --config, --threads).
 Option jsonOption();
 Option setOption();
 Option configOption();

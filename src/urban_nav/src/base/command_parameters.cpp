@@ -14,7 +14,7 @@ const urban_nav_core::Table<CommandParameters>& commandTable() {
             200,
             10000000,
             {},
-            "Bounds the memory for what is read ahead and for what a file holds compressed; no result depends on it.",
+            "Bounds the memory for reading ahead and for decompressed files; without effect on the results.",
             ""}});
   return table;
 }

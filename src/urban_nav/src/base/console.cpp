@@ -43,7 +43,7 @@ class Console::Implementation {
     transient_width = 0;
   }
 
-  /// Returns whether a listener has taken the line.
+  /// Passes a line to the listener; returns false without one.
   bool give(RunListener::Kind kind, const std::string& line) const {
     if (listener != nullptr) listener->takeLine(kind, line);
     return listener != nullptr;
@@ -51,7 +51,7 @@ class Console::Implementation {
 
   RunListener* const listener;
   spdlog::logger logger;
-  std::mutex mutex;  // guards transient_width and the order of what is written
+  std::mutex mutex;  // guards transient_width and the order of output
   std::size_t transient_width = 0;
   const bool terminal;
 };
@@ -65,7 +65,7 @@ void Console::print(const std::string& text) {
   const std::lock_guard<std::mutex> lock(implementation_->mutex);
   implementation_->clearTransient();
   const std::string shown = urban_nav_core::printable(text, "\n\t");
-  std::fwrite(shown.data(), 1, shown.size(), stdout);  // what fails is seen at the end
+  std::fwrite(shown.data(), 1, shown.size(), stdout);  // errors are reported at the end
   std::fflush(stdout);
 }
 

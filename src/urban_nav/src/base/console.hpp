@@ -10,19 +10,18 @@
 
 namespace urban_nav {
 
-/// Where the command speaks to its user: results on the standard output, everything else on the standard error, so that
-/// one can be piped without the other. Lines of several threads do not mix. Control characters, which names in a file
-/// may hold, are shown as printable() spells them.
+/// Output of the command: results on the standard output, everything else on the standard error. Thread-safe: lines of
+/// several threads are not mixed. Control characters, as in names in a file, are escaped by printable().
 class Console {
  public:
   Console();
-  /// Gives everything to a listener, which outlives this object, and prints nothing.
+  /// Forwards all output to a listener, which must outlive this object, and prints nothing.
   explicit Console(RunListener& listener);
   ~Console();
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
-  /// A result, of any number of lines.
+  /// Prints a result of any number of lines.
   void print(const std::string& text);
   void info(const std::string& line);
   void warn(const std::string& line);
@@ -30,7 +29,7 @@ class Console {
 
   /// Reports progress to a listener, if there is one.
   void progress(const std::string& label, std::int64_t done, std::int64_t total);
-  /// Text that the next line, or the next such text, replaces; nothing where the output is no terminal.
+  /// Prints a text that the next output replaces; no effect if the output is not a terminal.
   void transient(const std::string& text);
   bool isTerminal() const;
 
@@ -39,14 +38,14 @@ class Console {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// How far a long work is: a bar with rate and time left on a terminal, a line every few seconds elsewhere.
+/// Progress of a long task: a bar with rate and remaining time on a terminal, else a line every few seconds.
 class Progress {
  public:
   /// `total` in `unit`s; 0: unknown.
   Progress(Console& console, std::string label, std::string unit, std::int64_t total);
-  /// Cheap: may be called for each frame.
+  /// Cheap enough to be called for each frame.
   void update(std::int64_t done);
-  /// The last word, with the mean rate.
+  /// Prints the final line with the mean rate.
   void finish(std::int64_t done);
 
  private:
@@ -59,7 +58,7 @@ class Progress {
   Clock::time_point begin_, last_;
 };
 
-/// "0:07", "12:34", "1:02:03".
+/// Formats a duration: "0:07", "12:34", "1:02:03".
 std::string printDuration(double seconds);
 
 }  // namespace urban_nav

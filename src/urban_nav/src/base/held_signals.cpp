@@ -20,7 +20,8 @@ bool isIgnored(int signal) {
 HeldSignals::HeldSignals() {
   sigemptyset(&held_);
   for (const int signal : kAllSignals)
-    if (!isIgnored(signal)) sigaddset(&held_, signal);  // a held one would wait even so, and nohup be of no use
+    if (!isIgnored(signal))
+      sigaddset(&held_, signal);  // blocking an ignored signal would make it pending, which defeats nohup
   pthread_sigmask(SIG_BLOCK, &held_, &before_);
 }
 

@@ -5,9 +5,9 @@
 
 namespace urban_nav {
 
-/// Keeps SIGINT, SIGTERM and SIGHUP (those that are not ignored) waiting while it lives, so that what has been begun
-/// can be tidied away; then they do what they always do. Holds for this thread and those that it starts from then on:
-/// to be made before there are others.
+/// Blocks SIGINT, SIGTERM and SIGHUP (those that are not ignored) during its lifetime, so that temporary files can be
+/// removed; pending signals are delivered afterwards. Applies to this thread and threads started by it later: construct
+/// it before starting others.
 class HeldSignals {
  public:
   HeldSignals();
@@ -15,7 +15,7 @@ class HeldSignals {
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
 
-  /// Throws std::runtime_error if one is waiting.
+  /// Throws std::runtime_error if a signal is pending.
   void check() const;
 
  private:

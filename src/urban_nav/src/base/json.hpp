@@ -24,21 +24,20 @@ class Json {
   Json(std::string value) : value_(std::move(value)) {}                  // NOLINT
 
   static Json object();
-  /// With these members, in this order.
+  /// Returns an object with these members, in this order.
   static Json object(std::vector<std::pair<std::string, Json>> members);
   static Json array();
 
-  /// The value of a key, made null if it was not there; turns null into an object.
+  /// Returns the value of a key, inserted as null if missing. Converts null to an object.
   Json& operator[](const std::string& key);
   void append(Json element);
   bool isObject() const { return std::holds_alternative<Members>(value_); }
   bool has(const std::string& key) const;
 
-  /// Returns the names and the texts of the values within an object, those of inner ones with points: "gps.fixes",
-  /// "12".
+  /// Returns names and texts of all values in an object, with nested names joined by points: "gps.fixes", "12".
   std::vector<std::pair<std::string, std::string>> flat() const;
 
-  /// Indented by two blanks, with a newline at the end.
+  /// Prints with an indentation of two blanks and a final newline.
   std::string print() const;
 
  private:

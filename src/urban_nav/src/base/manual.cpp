@@ -9,7 +9,7 @@ namespace urban_nav {
 
 namespace {
 
-/// Text that roff prints as it is.
+/// Escapes text for roff.
 std::string escaped(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -40,7 +40,7 @@ void appendCommand(const Command& command, const std::string& name, std::string&
   for (const Command& action : command.actions) appendCommand(action, name + " " + action.name, page);
 }
 
-/// Blank between what a user may type, for a variable of the shell.
+/// Joins words by blanks, for a shell variable.
 std::string joinedByBlanks(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;

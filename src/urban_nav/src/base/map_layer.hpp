@@ -8,11 +8,11 @@
 
 namespace urban_nav {
 
-/// Points of a map that the report shows in three dimensions, at most.
+/// Maximum number of points in the 3D view of the report.
 constexpr std::size_t kMostShownPoints = 500'000;
 
-/// Returns markup that adds a way of colouring to the view of a map that stands on the page before it. `number`: of the
-/// view. `kinds`: one per point that the view shows, in its order: index in `colours` (red, green, blue).
+/// Returns markup that adds a colouring to the map view that precedes it on the page. `number`: index of the view.
+/// `kinds`: index in `colours` (red, green, blue) for each point of the view, in its order.
 std::string renderMapLayer(std::size_t number, const std::string& name, const std::vector<unsigned char>& kinds,
                            const std::vector<std::array<int, 3>>& colours);
 

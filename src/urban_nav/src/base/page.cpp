@@ -12,7 +12,7 @@ namespace urban_nav {
 namespace {
 
 constexpr std::size_t kMostTilesAcross = 6;
-constexpr std::size_t kLongTable = 60;  // rows: more of them scroll within their own frame
+constexpr std::size_t kLongTable = 60;  // rows; longer tables scroll
 
 const char* classify(Grade grade) {
   switch (grade) {
@@ -34,7 +34,7 @@ const char* toMark(Grade grade) {
   return "i";
 }
 
-/// Returns the attribute by which programs read a verdict, " data-verdict=..."; empty for a plain one.
+/// Returns the machine-readable attribute of a verdict, " data-verdict=..."; empty for a plain one.
 std::string verdictAttribute(Grade grade) {
   return grade == Grade::Plain ? "" : " data-verdict=\"" + std::string(classify(grade)) + "\"";
 }
@@ -118,7 +118,7 @@ std::string renderPage(const Page& page) {
   if (page.running) {
     const int percent = static_cast<int>(100.0 * page.progress);
     html += "<div class=\"running\"><div class=\"bar\" style=\"width:" + std::to_string(percent) +
-            "%\"></div><span>still at work" + (percent > 0 ? ", " + std::to_string(percent) + " %" : "") +
+            "%\"></div><span>in progress" + (percent > 0 ? ", " + std::to_string(percent) + " %" : "") +
             "; this page refreshes itself</span></div>\n";
   }
   html += "<nav>";

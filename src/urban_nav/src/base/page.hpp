@@ -7,7 +7,7 @@
 
 namespace urban_nav {
 
-/// How good a figure is, in the page's colours and words.
+/// Grade of a figure, shown by its colour.
 enum class Grade { Good, Fair, Bad, Plain };
 
 /// A number at the top of the page.
@@ -16,17 +16,17 @@ struct Tile {
   Grade grade = Grade::Plain;
 };
 
-/// A sentence that answers a question the reader has.
+/// A graded statement on the run.
 struct Verdict {
   Grade grade = Grade::Plain;
   std::string headline;  ///< "Tracking held throughout"
-  std::string sentence;  ///< what it rests on, with figures
+  std::string sentence;  ///< the supporting figures
 };
 
 struct Figure {
   std::string title;
-  std::string markup;   ///< HTML or SVG, as renderSvg makes it; without it the title is left out too
-  std::string caption;  ///< how to read it
+  std::string markup;   ///< HTML or SVG (renderSvg); if empty, the title is omitted
+  std::string caption;  ///< explanation
   bool wide = false;    ///< over the whole width of the page
 };
 
@@ -50,11 +50,11 @@ struct Section {
   std::vector<PageTable> tables;
 };
 
-/// A report as plain data: stages fill it, renderPage makes the page.
+/// A report as plain data, filled by the stages and printed by renderPage().
 struct Page {
   std::string title;
   std::string subtitle;
-  bool running = false;   ///< the page says so and refreshes itself
+  bool running = false;   ///< the page is marked as unfinished and refreshes itself
   double progress = 0.0;  ///< 0...1, while running
   std::vector<Tile> tiles;
   std::vector<Verdict> verdicts;
@@ -62,7 +62,7 @@ struct Page {
   std::string footer;
 };
 
-/// One HTML file that needs no other: light and dark, wide and narrow, on paper too.
+/// Returns a self-contained HTML file for light and dark, wide and narrow screens, and print.
 std::string renderPage(const Page& page);
 
 std::string base64(const std::vector<unsigned char>& bytes);

@@ -3,8 +3,7 @@
 
 namespace urban_nav {
 
-/// The page's CSS, and the script that reads values off a plot under the pointer. Both are part of the file: nothing is
-/// fetched.
+/// CSS of the page, and the script that shows the values of a plot under the pointer. Both are embedded in the page.
 const char* pageStyle();
 const char* pageScript();
 

@@ -45,7 +45,7 @@ class ParameterSet {
   /// sentence each, for the user.
   std::vector<std::string> warnings(const std::vector<std::string>& shared) const;
   /// Returns the rows for users with value and origin, for --help, or every row, for --help-all, also with allowed
-  /// range and source. `stage`: of this one alone.
+  /// range and source. `stage`: only this one.
   std::string help(urban_nav_core::Audience audience) const;
   std::string help(const std::string& stage, urban_nav_core::Audience audience) const;
   /// Returns "stage.row" -> {value, origin} for summary.json.
@@ -78,7 +78,7 @@ class ParameterSet {
 
   std::vector<std::unique_ptr<Group>> groups_;
   std::vector<urban_nav_core::Assignment> assignments_;
-  std::vector<std::string> old_names_;  // sentences about their use
+  std::vector<std::string> old_names_;  // warnings about their use
 };
 
 }  // namespace urban_nav

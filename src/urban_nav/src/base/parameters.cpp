@@ -25,7 +25,7 @@ std::vector<Assignment> readAssignments(const Arguments& arguments) {
   return assignments;
 }
 
-/// Parameters of one stage, or of all.
+/// Returns the help on the parameters of one stage, or of all.
 std::string helpOf(const Arguments& arguments, const std::string& key, const std::optional<std::string>& stage) {
   const bool for_experts = arguments.has("help-all");
   const Audience audience = for_experts ? Audience::Experts : Audience::Users;

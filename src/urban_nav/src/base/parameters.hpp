@@ -13,16 +13,15 @@ namespace urban_nav {
 /// process to `memory_mb`. Throws UserError for unknown or bad ones.
 ParameterSet loadParameters(const Arguments& arguments);
 
-/// Returns sentences for the user: old names that were used, and properties of the camera that two stages have
-/// differently.
+/// Returns warnings for the user: old names that were used, and camera properties that differ between two stages.
 std::vector<std::string> parameterWarnings(const ParameterSet& parameters);
 
-/// Checks --config, --set and --threads of a command that runs no stage, so that one file and one set of options serve
-/// every command. Throws UserError.
+/// Checks --config, --set and --threads of a command that runs no stage, so that all commands accept the same options.
+/// Throws UserError.
 void checkCommonOptions(const Arguments& arguments);
 
-/// Return the parameters for --help, or all for --help-all, with their values, --config and --set of the same call
-/// included: those that belong to no stage, those of one stage, and those of all.
+/// Return the parameters for --help, or all for --help-all, with their values including --config and --set of the same
+/// call: those without a stage, those of one stage, and those of all stages.
 std::string commonHelp(const Arguments& arguments);
 std::string stageHelp(const Arguments& arguments, const std::string& stage);
 std::string parametersHelp(const Arguments& arguments);

@@ -11,7 +11,7 @@ namespace urban_nav {
 
 namespace {
 
-constexpr std::size_t kMostPoints = 1200;  // of a line: about two a pixel at full width
+constexpr std::size_t kMostPoints = 1200;  // per line: about two per pixel at full width
 constexpr double kPlotLeft = 62, kPlotRight = 14, kPlotTop = 12, kPlotBottom = 44;
 
 struct Range {
@@ -26,7 +26,7 @@ struct Range {
   double span() const { return high - low; }
 };
 
-struct PlotFrame {  // of the plot: from values to px
+struct PlotFrame {  // maps values to px
   Range x, y;
   double width = 0, height = 0;
   double u(double value) const { return kPlotLeft + (value - x.low) / x.span() * (width - kPlotLeft - kPlotRight); }
@@ -43,7 +43,7 @@ std::string px(double value) {
 
 bool finite(const PlotPoint& p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
-/// At most kMostPoints: of each bucket the first, lowest and highest, in order.
+/// Returns at most kMostPoints indices: the first, lowest and highest point of each bucket, in order.
 std::vector<std::size_t> thinned(const std::vector<PlotPoint>& points) {
   std::vector<std::size_t> kept;
   if (points.size() <= kMostPoints) {

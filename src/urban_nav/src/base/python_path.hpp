@@ -6,11 +6,11 @@
 
 namespace urban_nav {
 
-/// Returns the folder for PYTHONPATH with which `import urban_nav` works: that of the space, devel or install, which
-/// holds `program`. Throws UserError if the Python module is not there.
+/// Returns the folder for PYTHONPATH with which `import urban_nav` works, in the devel or install space of `program`.
+/// Throws UserError if the Python module is missing.
 std::string pythonPath(const std::filesystem::path& program);
 
-/// The same for this program.
+/// Returns the PYTHONPATH folder for the running program.
 std::string pythonPath();
 
 }  // namespace urban_nav

@@ -11,7 +11,7 @@ namespace urban_nav {
 
 namespace {
 
-constexpr int kScale = 2;  // pixels per px of the plot's own size
+constexpr int kScale = 2;  // pixels per px of the plot
 constexpr int kTitleHeight = 44, kLeft = 62, kRight = 14, kTop = 12, kBottom = 44;
 const cv::Scalar kGrid(226, 232, 235), kText(119, 104, 93);
 

@@ -9,8 +9,8 @@
 
 namespace urban_nav {
 
-/// Lines and dots of plots with their titles, one below the other, as a PNG for light paper. Bands, bars and spans are
-/// left out.
+/// Returns plots with their titles, one below the other, as a PNG on white. Draws only lines and dots; bands, bars and
+/// spans are omitted.
 std::vector<unsigned char> rasterPng(const std::vector<std::pair<std::string, Plot>>& plots);
 
 }  // namespace urban_nav

@@ -9,7 +9,7 @@
 
 namespace urban_nav {
 
-/// Plots with their titles, one below the other, as an SVG file of its own with colours for light paper.
+/// Returns plots with their titles, one below the other, as a standalone SVG file on white.
 std::string standaloneSvg(const std::vector<std::pair<std::string, Plot>>& plots);
 
 }  // namespace urban_nav

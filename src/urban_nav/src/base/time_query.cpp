@@ -19,12 +19,12 @@ TimeQuery parseTimeQuery(const std::string& text, const std::string& what) {
   const std::string number = plus == std::string::npos ? text : text.substr(plus + 1);
   const std::optional<double> seconds = urban_nav_core::parseNumber(number);
   if (!seconds || std::abs(*seconds) > 9e9 || (plus == std::string::npos && *seconds < 0.0))
-    throw UserError(what, "\"" + text + "\" is no time",
+    throw UserError(what, "\"" + text + "\" is not a time",
                     "seconds since 1970 (1225719873.5), since the beginning of a session (+12.5, or NAME+12.5)");
   moment.seconds = *seconds;
   moment.since_begin = plus != std::string::npos;
   if (moment.since_begin) moment.session = text.substr(0, plus);
-  // A double holds seconds since 1970 to a quarter of a microsecond: enough to find a closure by.
+  // A double resolves seconds since 1970 to a quarter of a microsecond, sufficient to identify a closure.
   else moment.stamp = static_cast<StampNs>(std::llround(*seconds * 1e9));
   return moment;
 }

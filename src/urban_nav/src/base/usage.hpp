@@ -6,7 +6,7 @@
 
 namespace urban_nav {
 
-/// What the process has used since a Usage was made: for summaries, never for results.
+/// Time and memory used by the process since construction; for summaries, not for results.
 class Usage {
  public:
   Usage();

@@ -7,11 +7,11 @@
 
 namespace urban_nav {
 
-/// Returns a file of src/urban_nav/web, which the build embeds in the program. Throws std::out_of_range for a name that
-/// is not there.
+/// Returns a file of src/urban_nav/web, embedded in the program by the build. Throws std::out_of_range for an unknown
+/// name.
 std::string_view webFile(std::string_view name);
 
-/// Returns several of them, one after another.
+/// Returns the concatenation of several files.
 std::string webFiles(std::initializer_list<const char*> names);
 
 }  // namespace urban_nav

@@ -6,7 +6,7 @@
 
 namespace urban_nav {
 
-/// Returns new objects of all stages of the suite, in the order in which they run. The only place that names them.
+/// Returns new objects of all stages of the suite, in the order in which they run. The only list of the stages.
 AllStages makeStages();
 
 /// Adds the parameter tables of all stages, in their order.

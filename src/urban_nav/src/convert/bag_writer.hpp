@@ -17,9 +17,8 @@
 
 namespace urban_nav {
 
-/// A recording that appears whole or not at all: MCAP if its path ends in ".mcap", otherwise a bag whose chunks are not
-/// compressed. Messages are to come in the order of their receipt. Throws UserError naming the file where it cannot be
-/// written.
+/// Writes a recording atomically: MCAP if its path ends in ".mcap", else a bag with uncompressed chunks. Requires
+/// messages in the order of receipt. Throws UserError naming the file if it cannot be written.
 class BagWriter {
  public:
   explicit BagWriter(const std::string& path);
@@ -35,7 +34,7 @@ class BagWriter {
 
   /// Closes, flushes, renames.
   void commit();
-  /// Messages by topic so far.
+  /// Returns the number of messages so far by topic.
   const std::map<std::string, std::int64_t>& counts() const { return counts_; }
 
  private:
@@ -44,7 +43,7 @@ class BagWriter {
 
   std::unique_ptr<urban_nav_input::RecordingWriter> writer_;
   std::map<std::pair<std::string, std::string>, urban_nav_input::Connection> connections_;  // key: topic and type
-  std::vector<std::uint8_t> bytes_;                                                         // the message at work
+  std::vector<std::uint8_t> bytes_;  // buffer of the current message
   std::map<std::string, std::int64_t> counts_;
 };
 

@@ -9,22 +9,22 @@
 
 namespace urban_nav {
 
-/// What a conversion wrote.
+/// Output of a conversion.
 struct Converted {
   std::map<std::string, std::int64_t> counts;  ///< messages by topic
-  std::vector<std::string> notes;              ///< what was assumed or left out
+  std::vector<std::string> notes;              ///< assumptions and omissions, for the user
   std::vector<std::string> files = {};         ///< files of a conversion into several; empty: one
 };
 
-/// A folder of KITTI or EuRoC into a bag: rectified images with camera_info, static tf, IMU and truth where the folder
-/// has them. `ahead`: pictures are decoded by a second thread, the bag is the same. Throws DataError naming the file
-/// for an image that is missing or damaged: no bag is left.
+/// Converts a folder of KITTI or EuRoC to a bag: rectified images with camera_info, static tf, IMU and truth if
+/// present. `ahead`: decodes images in a second thread, without effect on the bag. Throws DataError naming the file
+/// for a missing or damaged image; then writes no bag.
 Converted convertStereoFolder(const std::string& folder, const std::string& bag,
                               const urban_nav_input::SourceOptions& options, Console& console, bool ahead = true);
 
-/// A folder of the New College data set (or its .alog alone) into a bag: lasers with reflectance, odometry in REP-103,
-/// whatever stereo and panoramic images there are. Throws UserError naming file and line for damaged parts: no bag is
-/// left.
+/// Converts a folder of the New College data set (or only its .alog) to a bag: lasers with reflectance, odometry in
+/// REP-103 axes, stereo and panoramic images if present. Throws UserError naming file and line for damaged parts; then
+/// writes no bag.
 Converted convertNewCollege(const std::string& source, const std::string& bag, Console& console);
 
 }  // namespace urban_nav

@@ -19,7 +19,7 @@ void checkKind(const std::string& kind, const std::string& source) {
   const bool right = (kind == "kitti" && found == urban_nav_input::InputKind::KittiFolder) ||
                      (kind == "euroc" && found == urban_nav_input::InputKind::EurocFolder);
   if (!right)
-    throw urban_nav_core::UserError(source, "is no folder of " + kind,
+    throw urban_nav_core::UserError(source, "is not a folder of " + kind,
                                     kind == "kitti" ? "image_0/, image_1/, calib.txt" : "mav0/ with cam0 and cam1");
 }
 
@@ -27,7 +27,7 @@ Converted convertFolder(const std::string& kind, const std::string& source, cons
                         Console& console) {
   for (const char* option : {"topics", "from", "to", "split"})
     if (arguments.has(option))
-      throw urban_nav_core::UserError(std::string("--") + option, "is not for folders", "for recordings alone");
+      throw urban_nav_core::UserError(std::string("--") + option, "does not apply to folders", "recordings only");
   const std::string bag = arguments.get("output");
   if (kind == "new-college") return convertNewCollege(source, bag, console);
   checkKind(kind, source);
@@ -40,7 +40,7 @@ Converted convertFolder(const std::string& kind, const std::string& source, cons
 Converted convertInput(const std::string& input, const Arguments& arguments, Console& console) {
   for (const char* option : {"calibration", "rate"})
     if (arguments.has(option))
-      throw urban_nav_core::UserError(std::string("--") + option, "is not for recordings", "for folders alone");
+      throw urban_nav_core::UserError(std::string("--") + option, "does not apply to recordings", "folders only");
   if (urban_nav_input::inputKind(input) != urban_nav_input::InputKind::Bag)
     throw urban_nav_core::UserError(input, "is a folder of images",
                                     "convert kitti, euroc or new-college " + input + " -o FILE");
@@ -61,10 +61,10 @@ int runConvert(const Arguments& arguments, Console& console) {
   checkCommonOptions(arguments);
   const std::vector<std::string> words = arguments.all("INPUT");
   const std::string bag = arguments.get("output");
-  if (words.size() > 2) throw urban_nav_core::UserError(words[2], "is one argument too many", "INPUT, or FORMAT SRC");
+  if (words.size() > 2) throw urban_nav_core::UserError(words[2], "is an extra argument", "INPUT, or FORMAT SRC");
   const bool is_folder = words.size() == 2;
   if (is_folder && words[0] != "kitti" && words[0] != "euroc" && words[0] != "new-college")
-    throw urban_nav_core::UserError(words[0], "is the format of no folder", "kitti, euroc, new-college");
+    throw urban_nav_core::UserError(words[0], "is not a folder format", "kitti, euroc, new-college");
   const Converted converted =
       is_folder ? convertFolder(words[0], words[1], arguments, console) : convertInput(words[0], arguments, console);
   for (const std::string& note : converted.notes) console.info("  " + note);
@@ -90,7 +90,7 @@ int runConvert(const Arguments& arguments, Console& console) {
 Command convertCommand() {
   Command command;
   command.name = "convert";
-  command.summary = "Turns a recording or a data folder of others into a bag or MCAP.";
+  command.summary = "Converts a recording or the folder of a public data set into a bag or MCAP.";
   command.options = {
       {"INPUT",
        "",
@@ -99,17 +99,17 @@ Command convertCommand() {
        true,
        {}},
       {"-o,--output", "FILE", "FILE.bag or FILE.mcap to write; it appears when it is complete", true, false, {}},
-      {"--topics", "A,B", "of the recording (default: all)", false, false, {}},
-      {"--from", "S", "s after the first message, by receipt (included)", false, false, {}},
-      {"--to", "S", "s after the first message, by receipt (not included)", false, false, {}},
-      {"--split", "MB", "begins FILE_0, FILE_1, ... after so much", false, false, {}},
+      {"--topics", "A,B", "topics of the recording (default: all)", false, false, {}},
+      {"--from", "S", "begin, s after the first message by receipt (included)", false, false, {}},
+      {"--to", "S", "end, s after the first message by receipt (excluded)", false, false, {}},
+      {"--split", "MB", "size of the files FILE_0, FILE_1, ...", false, false, {}},
       {"--calibration",
        "FILE",
-       "where a KITTI folder has none: a calib.txt, or LEFT.yaml,RIGHT.yaml (camera_info)",
+       "if a KITTI folder has none: a calib.txt, or LEFT.yaml,RIGHT.yaml (camera_info)",
        false,
        false,
        {}},
-      {"--rate", "HZ", "of a KITTI folder without times.txt (default 10)", false, false, {}},
+      {"--rate", "HZ", "rate of a KITTI folder without times.txt (default 10)", false, false, {}},
       jsonOption(),
       configOption(),
       setOption(),

@@ -5,7 +5,7 @@
 
 namespace urban_nav {
 
-/// Returns the command convert: turns folders of other projects into bags.
+/// Returns the command convert, which converts recordings and folders of public data sets to bags or MCAP.
 Command convertCommand();
 
 }  // namespace urban_nav

@@ -9,8 +9,8 @@
 
 namespace urban_nav {
 
-/// A turn of the laser of that side ("left", "right") on the topic of docs/architecture.md. `id`: counts the device's
-/// turns.
+/// Writes a scan of the laser of a side ("left", "right") on its topic (docs/architecture.md). `id`: scan counter of
+/// the device.
 void writeLaser(const std::string& side, const urban_nav_core::PlanarScan& scan, std::uint32_t id, BagWriter& bag);
 
 }  // namespace urban_nav

@@ -64,7 +64,7 @@ void write(const urban_nav_input::NewCollegeOdometry& event, BagWriter& bag) {
 }
 
 void write(const urban_nav_input::NewCollegePanorama& /*event*/, BagWriter& /*bag*/) {
-}  // the index alone; pictures are taken by the names of their files
+}  // only the index; images are stamped by their file names
 
 void write(const urban_nav_input::NewCollegeFiles::Image& image, BagWriter& bag) {
   const urban_nav_ros::GreyImage seen = urban_nav_input::readPixels(image.path);
@@ -79,7 +79,7 @@ void write(const urban_nav_input::NewCollegeFiles::Image& image, BagWriter& bag)
   bag.write(urban_nav_ros::topics::fromRoot(topic + "/compressed"), image.stamp, message);
 }
 
-/// Everything of one data set, in the order of stamps.
+/// All data of one data set, in the order of stamps.
 class NewCollege {
  public:
   explicit NewCollege(const std::string& source) : files_(urban_nav_input::findNewCollege(source)) {
@@ -109,9 +109,9 @@ class NewCollege {
     std::vector<std::string> notes;
     if (!log_) notes.push_back("no .alog: no lasers, no odometry");
     if (files_.stereo.empty()) notes.push_back("no StereoImages");
-    if (files_.panorama.empty()) notes.push_back("no pictures of the Ladybug");
+    if (files_.panorama.empty()) notes.push_back("no images of the Ladybug");
     if (!files_.stereo.empty())
-      notes.push_back("the stereo camera's place is not known: taken as 0.1 m ahead and 1.1 m up");
+      notes.push_back("the pose of the stereo camera is unknown: assumed 0.1 m ahead and 1.1 m up");
     if (!row_differences_.empty()) {
       const double worst = *std::max_element(row_differences_.begin(), row_differences_.end());
       notes.push_back("rows of the stereo images agree to " + std::to_string(worst) + " px" +
@@ -134,7 +134,7 @@ class NewCollege {
       notes.push_back(std::to_string(counts.odometry_without_tilt) +
                       " odometry rows have no tilt: roll and pitch are 0");
     if (counts.out_of_order > 0)
-      notes.push_back(std::to_string(counts.out_of_order) + " rows came over 2 s late and are left out");
+      notes.push_back(std::to_string(counts.out_of_order) + " rows were more than 2 s late and are left out");
     std::string unused;
     for (const auto& [variable, rows] : counts.unused)
       unused += (unused.empty() ? "not used: " : ", ") + variable + " (" + std::to_string(rows) +

@@ -71,7 +71,7 @@ void checkTopics(const urban_nav_input::Recording& recording, const std::string&
     if (present.count(topic) > 0) continue;
     std::string names;
     for (const auto& [name, type] : present) names += (names.empty() ? "" : ", ") + name;
-    throw UserError("--topics " + topic, "is no topic of " + input, names);
+    throw UserError("--topics " + topic, "is not a topic of " + input, names);
   }
 }
 
@@ -82,7 +82,7 @@ urban_nav_input::ReceiptRange findRange(urban_nav_input::Recording& recording, c
   return {after(part.from), after(part.to)};
 }
 
-/// Messages that were left out, by topic.
+/// Omitted messages, by topic.
 class LeftOut {
  public:
   void add(const std::string& topic, const std::string& reason) { ++counts_[{topic, reason}]; }
@@ -103,7 +103,7 @@ class LeftOut {
 Converted convertRecording(const std::string& input, const std::string& output, const RecordingPart& part,
                            Console& console) {
   std::error_code error;
-  if (fs::equivalent(input, output, error)) throw UserError(output, "is the recording that is read", "another file");
+  if (fs::equivalent(input, output, error)) throw UserError(output, "is also the input", "another file");
   urban_nav_input::Recording recording(input);
   checkTopics(recording, input, part.topics);
   OutputFiles files(output, part.split);

@@ -12,12 +12,12 @@ namespace {
 
 constexpr int kCorners = 200;
 constexpr int kHalf = 7;             // px: half-width of the patch
-constexpr int kRows = 5;             // px: how far up and down is looked
+constexpr int kRows = 5;             // px, search range up and down
 constexpr int kDisparities = 96;     // px
 constexpr double kLeastMatch = 0.9;  // normalised correlation
 constexpr std::size_t kLeastMatches = 20;
 
-/// Where a parabola through three values has its top, from the middle one.
+/// Returns the offset of the maximum of a parabola through three values from the middle one.
 double findTop(double before, double middle, double after) {
   const double bend = before - 2.0 * middle + after;
   return bend < 0.0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;

@@ -23,7 +23,7 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-/// Stamps that count from the start of the sequence are moved to a time that ROS takes for one (2001-09-09).
+/// Offset of stamps that begin at zero, to a valid ROS time (2001-09-09).
 constexpr StampNs kEpoch = 1'000'000'000'000'000'000;
 constexpr StampNs kEarliest = 1'000'000'000;
 
@@ -35,13 +35,13 @@ geometry_msgs::PoseStamped truthMessage(const urban_nav_core::StampedPose& pose,
   return message;
 }
 
-/// What is written beside the images, in the order of stamps.
+/// Messages other than images, in the order of stamps.
 class Companions {
  public:
   Companions(std::vector<sensor_msgs::Imu> imu, std::optional<urban_nav_input::TrajectoryFile> truth, StampNs shift)
       : imu_(std::move(imu)), truth_(std::move(truth)), shift_(shift) {}
 
-  /// Everything up to a stamp of the folder.
+  /// Writes all messages up to a stamp of the folder.
   void writeUntil(StampNs stamp, BagWriter& bag) {
     for (; next_imu_ < imu_.size() && urban_nav_ros::toStampNs(imu_[next_imu_].header.stamp) <= stamp; ++next_imu_) {
       sensor_msgs::Imu& message = imu_[next_imu_];
@@ -79,7 +79,7 @@ Converted convertStereoFolder(const std::string& folder, const std::string& path
   Converted converted;
   converted.notes = info.notes;
   if (shift != 0)
-    converted.notes.push_back("stamps count from the start: moved by 1000000000 s, since ROS has no time zero");
+    converted.notes.push_back("stamps begin at zero: shifted by 1000000000 s, since zero is not a valid ROS time");
 
   std::vector<sensor_msgs::Imu> imu;
   std::vector<geometry_msgs::TransformStamped> transforms = stereoTransforms(info.camera, info.T_base_camera);

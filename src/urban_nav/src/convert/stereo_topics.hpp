@@ -10,12 +10,12 @@
 
 namespace urban_nav {
 
-/// A rectified pair with its camera_info on the topics of docs/architecture.md; an empty view is left out, with its
+/// Writes a rectified pair with its camera_info on the topics of docs/architecture.md; omits an empty view and its
 /// camera_info.
 void writeStereo(const urban_nav_core::StereoPair& pair, urban_nav_core::StampNs stamp,
                  const urban_nav_core::StereoCamera& camera, BagWriter& bag);
 
-/// Where the two optical frames are on base_link.
+/// Returns the transforms from base_link to both optical frames.
 std::vector<geometry_msgs::TransformStamped> stereoTransforms(const urban_nav_core::StereoCamera& camera,
                                                               const urban_nav_core::Pose& T_base_left);
 

@@ -47,7 +47,7 @@ std::string requiredValue(const Arguments& arguments, const std::string& option)
   return arguments.get(option);
 }
 
-/// The words after the action, of which there must be `count`, or at least as many.
+/// Returns the words after the action. Throws UserError unless there are `count`, or at least `count` with `more`.
 std::vector<std::string> deviceWords(const Arguments& arguments, std::size_t count, bool more,
                                      const std::string& usage) {
   std::vector<std::string> words = arguments.all("ARGUMENT");
@@ -56,7 +56,7 @@ std::vector<std::string> deviceWords(const Arguments& arguments, std::size_t cou
       std::remove_if(words.begin(), words.end(), [](const std::string& word) { return word.rfind("__", 0) == 0; }),
       words.end());
   if (words.size() < count || (!more && words.size() > count))
-    throw UserError("urban_nav device", std::to_string(words.size()) + " words after the action", usage);
+    throw UserError("urban_nav device", std::to_string(words.size()) + " arguments after the action", usage);
   return words;
 }
 
@@ -241,8 +241,8 @@ Command deviceCommand() {
   std::vector<std::string> actions;
   for (const auto& action : deviceActions()) actions.push_back(action.first);
   command.options = {
-      {"ACTION", "", "what to do", true, false, actions},
-      {"ARGUMENT", "", "words of the action, see below", false, true, {}},
+      {"ACTION", "", "action", true, false, actions},
+      {"ARGUMENT", "", "arguments of the action, see below", false, true, {}},
       {"-o,--output", "OUT.csv", "table to write", false, false, {}},
       {"--chunk",
        "N",
@@ -251,26 +251,21 @@ Command deviceCommand() {
        false,
        {}},
       {"--arrivals", "FILE", "decode: offset,arrival_ns of each read; adds stamps", false, false, {}},
-      {"--port", "PATH", "run: serial port, best by /dev/serial/by-id; HOST:PORT of gpsd", false, false, {}},
+      {"--port", "PATH", "run: serial port, preferably by /dev/serial/by-id; HOST:PORT of gpsd", false, false, {}},
       {"--duration", "S", "run: s to run; simulate --world: s of the session (default 60)", false, false, {}},
       {"--drive", "FILE", "run segway_rmp: t_s,linear_mps,angular_radps since the port was opened", false, false, {}},
       {"--link", "PATH", "simulate: link to make to the pseudo-terminal", false, false, {}},
       {"--source", "FILE", "simulate a camera: file of raw frames to write, with FILE.csv", false, false, {}},
-      {"--tcp", "PORT", "simulate gps: serve gpsd's protocol at this port instead", false, false, {}},
+      {"--tcp", "PORT", "simulate gps: serve the gpsd protocol at this port instead", false, false, {}},
       {"--bag", "BAG", "simulate: recorded session", false, false, {}},
       {"--world", "W", "simulate: simulate a session in this world first, instead of --bag", false, false, {}},
       {"--route", "R", "simulate: its route (default loops)", false, false, {}},
       {"--day", "D", "simulate: its day (default 1)", false, false, {}},
       {"--side", "SIDE", "simulate lms291: which laser (default left)", false, false, {"left", "right"}},
       {"--fault", "KIND:START_S:DURATION_S[:VALUE]", "simulate: " + urban_nav_sim::deviceFaultList(), false, true, {}},
-      {"--clock", "OFFSET_S:PPM", "simulate: clock of the device against the host's", false, false, {}},
+      {"--clock", "OFFSET_S:PPM", "simulate: clock of the device relative to that of the host", false, false, {}},
       {"--delay", "MODEL", "simulate: exponential:MIN:MEAN:MAX, uniform:MIN:MAX or batch:MS, in ms", false, false, {}},
-      {"--begin",
-       "FILE",
-       "simulate: devices that name the same new file begin their sessions together",
-       false,
-       false,
-       {}},
+      {"--begin", "FILE", "simulate: devices with the same new file begin their sessions together", false, false, {}},
       {"--truth", "FILE", "simulate: write sequence,true_ns of each measurement", false, false, {}},
       {"--period", "S", "stamp: nominal spacing of the device times, s (default 0.01)", false, false, {}},
       {"--tolerance-ppm", "P", "stamp: largest skew of the device clock, ppm (default 200)", false, false, {}},

@@ -7,7 +7,7 @@
 
 namespace urban_nav {
 
-/// Returns the simulated device's clock, delays, faults and seed from the options of `device simulate`. Throws
+/// Returns clock, delays, faults and seed of the simulated device from the options of `device simulate`. Throws
 /// UserError.
 urban_nav_sim::DeviceOptions simulatedDeviceOptions(const Arguments& arguments);
 

@@ -30,7 +30,7 @@ std::optional<SimFrame> nextStereo(Session& session) {
   return std::nullopt;
 }
 
-/// The images of the five cameras come one after another, the last one completes the frame.
+/// Returns the next frame of the Ladybug, assembled from the consecutive images of its five cameras.
 std::optional<SimFrame> nextLadybug(Session& session) {
   std::array<cv::Mat, 5> images;
   while (const auto arrival = session.next()) {

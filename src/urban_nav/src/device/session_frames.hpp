@@ -6,7 +6,7 @@
 
 namespace urban_nav {
 
-/// Simulates a session of the robot with one camera and gives its raw frames as they are rendered. Throws UserError for
+/// Simulates a session of the robot with one camera and returns its raw frames while rendering. Throws UserError for
 /// an unknown world or route.
 segway_drivers::FrameReader simulateFrames(urban_nav_sim::SessionOptions options,
                                            segway_drivers::SimCameraOptions::Model model);

@@ -21,10 +21,10 @@ struct SimulateCameraJob {
 
 bool isCamera(const std::string& kind);
 
-/// Writes the raw frames of a simulated camera, as its driver gets them from the bus, and an index of them:
-/// `offset,arrival_ns,sequence,bytes,corrupt`. Times are those of the recording; nothing waits. Ends early once `stop`
-/// returns true. Returns the number of frames. Throws UserError for faults that a camera does not have or a bag that
-/// cannot be read, DataError if it has no images of the camera.
+/// Writes the raw frames of a simulated camera, as received from the bus, and their index
+/// `offset,arrival_ns,sequence,bytes,corrupt`. Times are those of the recording; does not run in real time. Ends early
+/// once `stop` returns true. Returns the number of frames. Throws UserError for faults that do not apply to cameras and
+/// for an unreadable bag, DataError if it has no images of the camera.
 std::int64_t simulateCamera(const SimulateCameraJob& job, const std::function<bool()>& stop);
 
 }  // namespace urban_nav

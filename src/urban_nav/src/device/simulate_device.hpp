@@ -10,16 +10,16 @@
 
 namespace urban_nav {
 
-/// A simulated device and what it measures.
+/// A simulated device and its session.
 struct SimulateDeviceJob {
   std::string bag;  ///< recorded session; empty: `session` is simulated first
   urban_nav_sim::SessionOptions session;
-  std::string side = "left";  ///< of lms291
+  std::string side = "left";  ///< of an lms291
   urban_nav_sim::SimulatedDeviceJob device;
 };
 
 /// Runs a simulated device until its session ends or `stop` returns true, then writes the truth. Returns the number of
-/// measurements. Throws UserError for a wrong job, DataError if the port cannot be made.
+/// measurements. Throws UserError for an invalid job, DataError if the port cannot be created.
 std::int64_t simulateDevice(const SimulateDeviceJob& job, const std::function<bool()>& stop);
 
 }  // namespace urban_nav

@@ -47,30 +47,32 @@ std::vector<std::string> actionWords() {
 Command edgeCommand() {
   Command command;
   command.name = "edge";
-  command.summary = "Lists and edits what joins the map of a session store: every edit is kept and can be undone.";
+  command.summary =
+      "Lists and edits the closures of the map of a session store: each edit is recorded and can be undone.";
   command.options = {
-      {"STORE", "", "session.db of a map; the map is relaxed again, and nothing is rendered", true, false, {}},
+      {"STORE", "", "session.db of a map; the graph is relaxed again, the point map is not rendered", true, false, {}},
       {"ACTION", "",
-       "list; reject ID, accept ID, remove ID (of what an edit added); measure T1 T2; assert T1 T2 --pose; pin T --at; "
+       "list; reject ID, accept ID, remove ID (one that an edit added); measure T1 T2; assert T1 T2 --pose; pin T "
+       "--at; "
        "cut SESSION T; origin T; undo [N]; redo. T: s since 1970, +S since the beginning of a session, NAME+S of that "
        "one",
        true, false, actionWords()},
-      {"ARGUMENT", "", "what the action takes", false, true, {}},
+      {"ARGUMENT", "", "arguments of the action", false, true, {}},
       {"--pose", "X,Y,Z,QX,QY,QZ,QW", "assert: T_a_b of base_link, m and a unit quaternion", false, false, {}},
-      {"--sigma",
-       "M,DEG",
-       "assert: standard deviations (default 0.1,1); pin: M alone (default 0.02)",
-       false,
-       false,
-       {}},
-      {"--at", "X,Y,Z", "pin: where the point lies in map, m", false, false, {}},
+      {"--sigma", "M,DEG", "assert: standard deviations (default 0.1,1); pin: M only (default 0.02)", false, false, {}},
+      {"--at", "X,Y,Z", "pin: position of the point in map, m", false, false, {}},
       {"--geodetic",
        "LAT,LON,H",
-       "pin: the same on WGS 84, deg and m, by the GPS fixes of the store",
+       "pin: position of the point on WGS 84, deg and m, by the GPS fixes of the store",
        false,
        false,
        {}},
-      {"--point", "U,V", "pin: the point seen in the left view at T, px (default: base_link itself)", false, false, {}},
+      {"--point",
+       "U,V",
+       "pin: pixel of the point in the left view at T, px (default: the point is base_link)",
+       false,
+       false,
+       {}},
       jsonOption(),
       configOption(),
       setOption(),

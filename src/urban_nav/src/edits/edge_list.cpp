@@ -15,11 +15,11 @@ using urban_nav_store::StoredEdit;
 
 namespace {
 
-/// Returns the command of an edit as it follows STORE, quoted for a shell: "reject 3". `numbers`: of the edges of
-/// the store.
+/// Returns the action and arguments of an edit, quoted for a shell: "reject 3". `numbers`: IDs of the edges of the
+/// store.
 std::string printCommand(const StoredEdit& edit, const std::map<urban_nav_store::EdgeKey, std::int64_t>& numbers) {
   if (!edit.arguments.empty()) return edit.action + " " + edit.arguments;
-  // A pin is an edge from the origin of its map, which depends on other edits: its source is its own.
+  // A pin is an edge from the origin of its map, which depends on other edits; it is identified by its source.
   const auto number = std::find_if(numbers.begin(), numbers.end(), [&](const auto& each) {
     return urban_nav_store::isOfEdit(edit.edge.source) ? std::get<5>(each.first) == edit.edge.source
                                                        : each.first == edgeKey(edit.edge);

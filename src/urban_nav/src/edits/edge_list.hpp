@@ -11,20 +11,20 @@
 
 namespace urban_nav {
 
-/// Returns the closures of a store that edits may concern. Constraints from planes are not among them: these are found
-/// anew whenever the map is rendered.
+/// Returns the closures of a store that can be edited: all but constraints from planes, which are recomputed whenever
+/// the map is rendered.
 std::vector<StoredClosure> listEditableClosures(urban_nav_store::Store& store);
 
-/// An entry of the journal of edits, as it is shown.
+/// An entry of the journal of edits.
 struct ListedEdit {
   std::int64_t number = 0;
-  std::string command;  ///< the words after STORE, quoted for a shell: "reject 3"
+  std::string command;  ///< action and arguments, quoted for a shell: "reject 3"
   bool undone = false;
   bool redoable = false;  ///< undone, and not dropped by an edit since
 };
 std::vector<ListedEdit> listEdits(urban_nav_store::Store& store);
 
-/// The closures of a store and its journal of edits, for `urban_nav edge STORE list`.
+/// Returns the closures of a store and its journal of edits, for `urban_nav edge STORE list`.
 std::string listEdges(urban_nav_store::Store& store);
 Json edgesAsJson(urban_nav_store::Store& store);
 

@@ -32,7 +32,7 @@ std::size_t sessionPlace(const PreviousSessions& sessions, const urban_nav_store
   return static_cast<std::size_t>(std::find(sessions.ids.begin(), sessions.ids.end(), id) - sessions.ids.begin());
 }
 
-/// As MapContext::lastCamera().
+/// Returns the camera of the last session with images (see MapContext::lastCamera()).
 std::optional<MountedCamera> lastCamera(const PreviousSessions& sessions) {
   for (auto run = sessions.runs.rbegin(); run != sessions.runs.rend(); ++run)
     if (auto camera = urban_nav_registration::parseCalibrationFingerprint(run->cameras)) return camera;
@@ -82,7 +82,7 @@ SeenPoint findSeenPoint(Store& store, const StoredMeasurements& measurements, co
   const std::optional<urban_nav_core::StampNs> nearest = findNearestView(store, at, kNearestView);
   if (!camera || !nearest)
     throw UserError("--point", "the store holds no view of the left camera within 1 s of T",
-                    "a T with one, or a pin of base_link without --point");
+                    "a T with a view, or a pin of base_link without --point");
   const auto row = store.keyframes().get(at.session, urban_nav_registration::kKeyframeCamera, *nearest);
   const urban_nav_registration::Keyframe keyframe = urban_nav_registration::toKeyframe(*row, at.session);
   double least = std::numeric_limits<double>::infinity();

@@ -27,11 +27,12 @@ using urban_nav_store::StoredEdit;
 namespace {
 
 constexpr double kRadiansPerDegree = 0.017453292519943295;
-constexpr double kAssertedSigma = 0.1, kAssertedDegrees = 1.0;  // m, deg: of a transform by eye, in a view of the map
-constexpr double kPinnedSigma = 0.02;                           // m: a surveyed point
-constexpr std::size_t kDigits = 8;                              // hexadecimal, of a digest
+constexpr double kAssertedSigma = 0.1,
+                 kAssertedDegrees = 1.0;  // m, deg: of a transform estimated by eye in a view of the map
+constexpr double kPinnedSigma = 0.02;     // m: a surveyed point
+constexpr std::size_t kDigits = 8;        // hexadecimal, of a digest
 
-/// Returns text as a shell takes it for one word.
+/// Quotes text as one word of a shell.
 std::string shellWord(const std::string& text) {
   const auto is_plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string("_./:,+=@%-").find(c) != std::string::npos;
@@ -42,7 +43,7 @@ std::string shellWord(const std::string& text) {
   return result + "'";
 }
 
-/// The words of a command line after STORE.
+/// The action and arguments after STORE.
 class Words {
  public:
   explicit Words(const Arguments& arguments) : arguments_(arguments), words_(arguments.all("ARGUMENT")) {}
@@ -58,7 +59,7 @@ class Words {
   }
   const std::string& operator[](std::size_t i) const { return words_[i]; }
   std::size_t size() const { return words_.size(); }
-  /// Returns the words as the journal has them.
+  /// Returns the words in the form of the journal.
   std::string print() const {
     std::string text;
     for (const std::string& word : words_) text += (text.empty() ? "" : " ") + shellWord(word);
@@ -72,7 +73,7 @@ class Words {
     const std::string text = arguments_.get(name);
     for (const std::string_view each : urban_nav_core::splitAt(text, ',')) {
       const std::optional<double> value = urban_nav_core::parseNumber(each);
-      if (!value) throw UserError("--" + name, "\"" + std::string(each) + "\" is no finite number", expected);
+      if (!value) throw UserError("--" + name, "\"" + std::string(each) + "\" is not a finite number", expected);
       result.push_back(*value);
     }
     if (result.size() != count)
@@ -101,16 +102,16 @@ std::string listNumbers(const std::vector<StoredClosure>& closures) {
 
 const StoredClosure& findClosure(const std::vector<StoredClosure>& closures, const std::string& text) {
   const std::optional<std::int64_t> id = urban_nav_core::parseInteger(text);
-  if (!id) throw UserError("ID", "\"" + text + "\" is no number", listNumbers(closures));
+  if (!id) throw UserError("ID", "\"" + text + "\" is not a number", listNumbers(closures));
   const auto found =
       std::find_if(closures.begin(), closures.end(), [&](const StoredClosure& closure) { return closure.id == *id; });
-  if (found == closures.end()) throw UserError("ID", text + ": no closure has it", listNumbers(closures));
+  if (found == closures.end()) throw UserError("ID", text + ": no such closure", listNumbers(closures));
   return *found;
 }
 
 std::string inWords(const StoredClosure& closure) { return "closure " + std::to_string(closure.id); }
 
-/// Returns why a verdict by hand would change nothing; empty if it may.
+/// Returns the reason why a manual verdict would change nothing; empty if it may.
 std::string whyVerdictIsIdle(const StoredClosure& closure, const std::string& action,
                              const std::vector<StoredEdit>& standing) {
   const StoredEdit* last = nullptr;
@@ -157,7 +158,7 @@ EditRequest readVerdict(const std::string& action, const Words& words, Store& st
   return request;
 }
 
-/// Returns a source of its own for a closure of an edit, which depends on their content alone.
+/// Returns a unique source for the closure of an edit, which depends only on their content.
 std::string makeSource(const StoredEdit& edit, const std::string& kind) {
   std::string text = kind + edit.edge.a.session + std::to_string(edit.edge.a.stamp) + edit.edge.b.session +
                      std::to_string(edit.edge.b.stamp) + edit.arguments;
@@ -173,7 +174,7 @@ double positive(double value, const std::string& option, const std::string& expe
 void readMoments(const Words& words, const PreviousSessions& sessions, StoredEdit& edit) {
   edit.edge.a = findMoment(sessions, words[0], "T1");
   edit.edge.b = findMoment(sessions, words[1], "T2");
-  if (edit.edge.a == edit.edge.b) throw UserError("T2", words[1] + " is the pose of T1", "two different moments");
+  if (edit.edge.a == edit.edge.b) throw UserError("T2", words[1] + " has the same pose as T1", "two different moments");
   edit.session = edit.edge.b.session;
 }
 
@@ -216,10 +217,10 @@ Eigen::Vector3d placeByFixes(Store& store, const std::vector<urban_nav_store::St
   }
 }
 
-/// Returns the place of a pinned point in the map, m.
+/// Returns the position of a pinned point in the map, m.
 Eigen::Vector3d readPlace(const Words& words, Store& store, const NodeRef& at) {
   if (words.has("at") == words.has("geodetic"))
-    throw UserError("pin", words.has("at") ? "--at and --geodetic" : "neither --at nor --geodetic", "one of them");
+    throw UserError("pin", words.has("at") ? "--at and --geodetic" : "neither --at nor --geodetic", "one of the two");
   if (words.has("at")) {
     const std::vector<double> v = words.numbers("at", 3, "three finite numbers X,Y,Z: m, in the frame map");
     return {v[0], v[1], v[2]};
@@ -273,10 +274,10 @@ EditRequest readCut(const Words& words, const PreviousSessions& sessions) {
   NodeRef last = findMoment(alone, words[1], "T");
   const std::vector<SmoothedFrame>& settled = sessions.runs[session].settled;
   if (settled.size() < 4) {
-    request.unchanged = "session " + sessions.names[session] + " has too few poses to be cut";
+    request.unchanged = "session " + sessions.names[session] + " has too few poses for a cut";
     return request;
   }
-  // Two pieces of at least one step: a pose alone is no piece.
+  // Both pieces need at least one step, i.e. two poses.
   last.stamp = std::clamp(last.stamp, settled[1].stamp, settled[settled.size() - 3].stamp);
   edit.edge.a = edit.edge.b = last;
   edit.session = last.session;
@@ -326,7 +327,7 @@ EditRequest readUndo(const std::string& action, const Words& words, Store& store
   EditRequest request{action, {}};
   if (words.size() == 1) {
     const std::optional<std::int64_t> count = urban_nav_core::parseInteger(words[0]);
-    if (!count || *count < 1) throw UserError("undo", "\"" + words[0] + "\"", "a number from 1");
+    if (!count || *count < 1) throw UserError("undo", "\"" + words[0] + "\"", "a number of at least 1");
     request.count = static_cast<std::size_t>(*count);
   }
   const std::vector<StoredEdit> all = urban_nav_store::EditJournal(store).all();

@@ -10,19 +10,18 @@
 
 namespace urban_nav {
 
-/// A person's request, checked against the content of the store.
+/// A requested edit, checked against the content of the store.
 struct EditRequest {
-  std::string action;                ///< word on the command line
-  urban_nav_store::StoredEdit edit;  ///< but for its number; not of undo and redo
-  std::size_t count = 1;             ///< undo: how many
-  std::string unchanged = {};        ///< why nothing would change; empty: something may
+  std::string action;                ///< as on the command line
+  urban_nav_store::StoredEdit edit;  ///< without its number; unused for undo and redo
+  std::size_t count = 1;             ///< undo: number of edits
+  std::string unchanged = {};        ///< reason why nothing would change; empty: it may
 };
 
-/// Returns the actions of `urban_nav edge` but `list`.
+/// Returns the actions of `urban_nav edge` except `list`.
 const std::vector<std::string>& editActions();
 
-/// Reads an action and its arguments, and measures the pair of an action that does. Throws UserError naming what was
-/// expected.
+/// Reads an action and its arguments; for `measure`, measures the pair. Throws UserError.
 EditRequest readEditRequest(const Arguments& arguments, urban_nav_store::Store& store,
                             const StoredMeasurements& measurements);
 

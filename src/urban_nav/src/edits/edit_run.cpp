@@ -46,8 +46,8 @@ Verdicts relaxedVerdicts(const GraphRun& run, const PreviousSessions& sessions) 
   return verdicts;
 }
 
-/// Returns the closures that edits contradict: accepted before and not after, but for those that are edited, and those
-/// that cannot be true as well.
+/// Returns the closures contradicted by edits: those accepted before but not after, except edited ones, and those
+/// inconsistent with the edits.
 std::set<EdgeKey> findContradictions(const Verdicts& before, const Verdicts& after, const GraphRun& run,
                                      const PreviousSessions& sessions, const std::vector<StoredEdit>& edits) {
   std::set<EdgeKey> found;
@@ -73,7 +73,7 @@ std::set<EdgeKey> findContradictions(const Verdicts& before, const Verdicts& aft
   return found;
 }
 
-/// Enters the request in the journal, and returns the edits that it concerns.
+/// Adds the request to the journal, and returns the affected edits.
 std::vector<StoredEdit> enter(EditJournal& journal, const EditRequest& request) {
   std::vector<std::int64_t> numbers;
   if (request.action == "undo") numbers = journal.undo(request.count);
@@ -115,7 +115,7 @@ EditOutcome makeEdit(Store& store, const StoredMeasurements& measurements, const
   const bool is_new = request.action != "undo" && request.action != "redo";  // these change the journal in any case
   if (is_new && !outcome.moved.any && verdicts_before == verdicts_after) {
     store.rollback();
-    outcome.reason = "the map does not change: without this edit, too, every pose and every verdict is the same";
+    outcome.reason = "the map does not change: each pose and each verdict is the same without this edit";
     return outcome;
   }
   outcome.changed = true;

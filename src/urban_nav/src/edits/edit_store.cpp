@@ -28,7 +28,7 @@ std::string figureText(const std::optional<double>& figure) {
   return figure ? urban_nav_core::formatNumber(*figure, 4) : std::string("unknown");
 }
 
-/// Opens a store for an edit. Throws DataError if another program writes it: the same call succeeds later.
+/// Opens a store for an edit. Throws DataError while another program writes it.
 Store openForEditing(const std::string& path) {
   try {
     return Store(path, Access::Write);
@@ -65,8 +65,8 @@ std::string describe(const EditResult& result) {
   if (!outcome.changed) return "nothing changed: " + outcome.reason + "\n";
   std::string text = "edit " + std::to_string(*outcome.edit) +
                      (request.action == "undo"   ? " undone"
-                      : request.action == "redo" ? " done again"
-                                                 : " made") +
+                      : request.action == "redo" ? " redone"
+                                                 : " applied") +
                      "; poses moved by up to " + moveText(outcome.moved.largest) + ", rms " +
                      moveText(outcome.moved.rms) + "\n";
   if (outcome.edge) text += "closure " + std::to_string(*outcome.edge) + " added\n";

@@ -21,10 +21,9 @@ using urban_nav_store::Store;
 
 namespace {
 
-constexpr double kKnown = 1e-9;  // share of the best known direction
+constexpr double kKnown = 1e-9;  // share of the best determined direction
 
-/// Returns the parameters of stage graph as the run has stored them that relaxed a session; rows that are not known any
-/// more are left out.
+/// Returns the parameters of stage graph stored by the run that relaxed a session, without obsolete rows.
 pose_graph::Parameters storedParameters(Store& store, const SessionId& id) {
   const std::string prefix = pose_graph::table().stage() + ".";
   std::vector<urban_nav_core::Assignment> assignments;
@@ -45,7 +44,7 @@ bool isSame(const Pose& a, const Pose& b) { return a.t() == b.t() && a.q().coeff
 StoredMeasurements readMeasurements(Store& store) {
   StoredMeasurements result;
   result.sessions = readPreviousSessions(store, {});
-  if (result.sessions.ids.empty()) throw urban_nav_core::DataError(store.path(), "holds no session with poses", "");
+  if (result.sessions.ids.empty()) throw urban_nav_core::DataError(store.path(), "has no session with poses", "");
   result.closures = closuresBetween(store, result.sessions.ids, result.sessions.names);
   result.parameters = storedParameters(store, result.sessions.ids.back());
   for (const SessionId& id : result.sessions.ids) {
@@ -68,7 +67,7 @@ MapFigures readFigures(const GraphRun& run) {
   std::vector<pose_graph::Rigid<3>> poses;
   for (const pose_graph::Track& track : graph.tracks())
     for (const Pose& pose : track.map) poses.push_back(pose_graph::toRigid<3>(pose));
-  // The relaxation may have put variances right: figures are of what was measured, so that they can be compared.
+  // The relaxation may have scaled variances; figures use the measured ones, so that they are comparable.
   const double closure_factor = graph.selection().rescaled ? graph.selection().closure_factor : 1.0;
   pose_graph::Problem<3> planes = problem.withoutEdges();
   std::size_t e = 0, directions = 0;
@@ -95,7 +94,7 @@ PoseMoves comparePoses(const MapPoses& before, const MapPoses& after) {
   double sum = 0.0;
   std::size_t poses = 0;
   for (std::size_t s = 0; s < before.size(); ++s) {
-    if (before[s].empty() || after[s].empty()) continue;  // one frame alone is no part of the graph
+    if (before[s].empty() || after[s].empty()) continue;  // a single frame is not part of the graph
     moves.any = moves.any || before[s].size() != after[s].size();
     for (std::size_t i = 0; i < std::min(before[s].size(), after[s].size()); ++i) {
       const double distance = (before[s][i].pose.t() - after[s][i].pose.t()).norm();

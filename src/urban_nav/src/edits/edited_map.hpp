@@ -14,32 +14,32 @@
 
 namespace urban_nav {
 
-/// The content of a store that its map is relaxed from, but for edits.
+/// Stored inputs of the relaxation, without edits.
 struct StoredMeasurements {
   PreviousSessions sessions;
   PreviousClosures closures;
   SessionGrounds grounds;
   SessionFixes fixes;
-  pose_graph::Parameters parameters;  ///< with which the store was relaxed
+  pose_graph::Parameters parameters;  ///< of the relaxation of the store
 };
 StoredMeasurements readMeasurements(urban_nav_store::Store& store);
 
-/// Relaxes all sessions of a store as its measurements and edits have it, by the code of stage graph.
+/// Relaxes all sessions of a store with its measurements and edits, by the code of stage graph.
 GraphRun relaxEdited(const StoredMeasurements& measurements, const std::vector<pose_graph::Edit>& edits);
 
-/// Figures of a relaxed map that need no truth.
+/// Figures of a relaxed map that do not require ground truth.
 struct MapFigures {
-  double cost = 0.0;  ///< of odometry and accepted closures, by their information as measured
-  /// Root mean square of what remains of constraints from planes, over what their noise explains; nullopt: there are
-  /// none.
+  double cost = 0.0;  ///< of odometry and accepted closures, with their measured information
+  /// Root mean square residual of the constraints from planes, divided by the value expected from their noise; nullopt
+  /// without constraints.
   std::optional<double> planes_over_noise;
 };
 MapFigures readFigures(const GraphRun& run);
 
-/// Returns by how much poses differ between the maps that a store holds and those of a relaxation.
+/// Differences between the poses of the stored maps and those of a relaxation.
 struct PoseMoves {
   double largest = 0.0, rms = 0.0;  ///< m
-  bool any = false;                 ///< one bit of a pose differs, or a verdict
+  bool any = false;                 ///< any bit of a pose or any verdict differs
 };
 using MapPoses = std::vector<urban_nav_core::Trajectory>;  ///< over all sessions
 PoseMoves comparePoses(const MapPoses& before, const MapPoses& after);

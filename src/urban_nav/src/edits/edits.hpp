@@ -6,7 +6,7 @@
 
 namespace urban_nav {
 
-/// Return the commands edge, which edits the map of a store, and verify, which makes it again and compares.
+/// Return the commands edge, which edits the map of a store, and verify, which recomputes and compares it.
 Command edgeCommand();
 Command verifyCommand(StageFactory make_stages);
 

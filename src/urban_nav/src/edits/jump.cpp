@@ -18,10 +18,10 @@ using urban_nav_core::Pose;
 namespace {
 
 constexpr double kJumpDegrees = 57.29577951308232;
-constexpr std::size_t kMostTried = 300;  // relaxations of one edge less, some ms each in a map of 10 000 poses
+constexpr std::size_t kMostTried = 300;  // relaxations without one edge, some ms each in a map of 10 000 poses
 constexpr std::size_t kShownCauses = 20;
 
-/// A relaxed graph, to be relaxed again without some of its edges.
+/// A relaxed graph that can be relaxed again without some of its edges.
 class Trial {
  public:
   Trial(const GraphRun& run, int pose) : problem_(run.graph.problem()), weights_(run.graph.weights()), pose_(pose) {
@@ -34,7 +34,7 @@ class Trial {
     components_ = pose_graph::solve(problem_, options_, weights_).components;
   }
 
-  /// Fills in where the pose lies without these edges.
+  /// Sets the displacement of the pose without these edges.
   void without(const std::vector<std::size_t>& edges, JumpExplanation::Cause& cause) const {
     std::vector<double> weights = weights_;
     for (const std::size_t edge : edges) weights[edge] = 0.0;
@@ -68,11 +68,11 @@ std::string placeText(double distance, double angle) {
 
 std::string causeText(const JumpExplanation::Cause& cause) {
   return cause.text + ": " +
-         (cause.joins ? "without it this pose lies in another map, or a part of the map does"
-                      : "without it this pose lies " + placeText(cause.distance, cause.angle) + " away");
+         (cause.joins ? "without it this pose or a part of the map is in another map"
+                      : "without it this pose is " + placeText(cause.distance, cause.angle) + " away");
 }
 
-/// Compares with odometry from the first pose of the map.
+/// Compares the pose with odometry from the first pose of the map.
 void compareWithOdometry(const GraphRun& run, std::size_t session, const urban_nav_store::NodeRef& at,
                          JumpExplanation& jump) {
   const pose_graph::Track& track = *run.graph.track(run.sessions[session]);
@@ -143,13 +143,13 @@ JumpExplanation explainJump(urban_nav_store::Store& store, const std::string& mo
 
 std::string explain(const JumpExplanation& jump) {
   std::string text = jump.moment + ": " + placeText(jump.distance, jump.angle) +
-                     " from where odometry has it, seen from " +
+                     " from its pose by odometry, relative to " +
                      (jump.in_own_map ? "the first pose of its map" : "the first pose of its session") + "\n";
   if (jump.causes.empty()) return text + "no accepted closure moves it\n";
   for (std::size_t i = 0; i < std::min(kShownCauses, jump.causes.size()); ++i)
     text += "  " + causeText(jump.causes[i]) + "\n";
   if (jump.causes.size() > kShownCauses)
-    text += "  and " + std::to_string(jump.causes.size() - kShownCauses) + " others that move it less\n";
+    text += "  and " + std::to_string(jump.causes.size() - kShownCauses) + " others with a smaller effect\n";
   if (jump.left_out > 0)
     text += "  not tried: " + std::to_string(jump.left_out) + " closures with the smallest residuals\n";
   return text;
@@ -157,16 +157,16 @@ std::string explain(const JumpExplanation& jump) {
 
 Page explainOnPage(const JumpExplanation& jump, const std::string& store) {
   Page page;
-  page.title = "Why " + jump.moment + " is where it is";
+  page.title = "Why the pose at " + jump.moment + " is there";
   page.subtitle = store;
-  PageTable table{"Closures that hold this pose",
-                  {"closure", "moves it by (m)", "(deg)", ""},
+  PageTable table{"Closures that determine this pose",
+                  {"closure", "effect (m)", "(deg)", ""},
                   {},
-                  "How far away the pose lies in the map relaxed without each one."};
+                  "Distance of the pose from its present place in the map relaxed without this closure."};
   for (const JumpExplanation::Cause& cause : jump.causes)
     table.rows.push_back({cause.text, urban_nav_core::formatNumber(cause.distance, 3),
                           urban_nav_core::formatNumber(kJumpDegrees * cause.angle, 3),
-                          cause.joins ? "the only one that joins its part" : ""});
+                          cause.joins ? "the only connection of its part" : ""});
   Section section;
   section.id = "jump";
   section.title = "Jump";

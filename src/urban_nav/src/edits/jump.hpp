@@ -11,25 +11,24 @@
 
 namespace urban_nav {
 
-/// The closures that hold a pose where it is in its map.
+/// The closures that determine a pose in its map.
 struct JumpExplanation {
   /// An accepted closure, or all constraints from planes together.
   struct Cause {
     std::int64_t id = 0;    ///< closure; 0: the planes
-    std::string text;       ///< for a person
-    double distance = 0.0;  ///< m: how far away the pose lies without it
+    std::string text;       ///< description for the user
+    double distance = 0.0;  ///< m, displacement of the pose without it
     double angle = 0.0;     ///< rad
-    bool joins = false;     ///< without it the pose lies in another map than its origin
+    bool joins = false;     ///< without it the pose is disconnected from the origin of its map
   };
-  std::string moment;                  ///< the pose, for a person
-  double distance = 0.0, angle = 0.0;  ///< m, rad: from where odometry alone has it, seen from the map's first pose
-  bool in_own_map = true;              ///< odometry leads from the map's first pose to it
-  std::vector<Cause> causes;           ///< the largest first
-  std::size_t left_out = 0;            ///< closures that were not tried, whose residuals are the smallest
+  std::string moment;                  ///< session and time of the pose, for the user
+  double distance = 0.0, angle = 0.0;  ///< m, rad: from its pose by odometry, relative to the first pose of the map
+  bool in_own_map = true;              ///< the first pose of the map is in the same session
+  std::vector<Cause> causes;           ///< in descending order of their effect
+  std::size_t left_out = 0;            ///< number of closures not tried: those with the smallest residuals
 };
 
-/// Relaxes the map of a store without each of its accepted closures in turn, with the verdicts of the others as they
-/// are.
+/// Relaxes the map of a store without each of its accepted closures in turn, keeping the verdicts of the others.
 JumpExplanation explainJump(urban_nav_store::Store& store, const std::string& moment);
 
 std::string explain(const JumpExplanation& jump);

@@ -26,7 +26,7 @@ namespace {
 constexpr StampNs kMinute = 60'000'000'000;
 constexpr StampNs kVerifiedSecond = 1'000'000'000;
 
-/// Names and beginnings of the sessions of a store.
+/// Names and start times of the sessions of a store.
 class SessionClock {
  public:
   explicit SessionClock(const PreviousSessions& sessions) {
@@ -71,11 +71,11 @@ void comparePosesByMinute(const SessionClock& clock, const SessionId& id, const 
   }
   for (const auto& [minute, found] : by_minute)
     differences.push_back({"graph", clock.name(id), minute,
-                           countText(found.first, "pose") + " relaxed to another place, by up to " +
+                           countText(found.first, "pose") + " relaxed to another position, by up to " +
                                urban_nav_core::formatNumber(1e3 * found.second, 3) + " mm"});
 }
 
-/// Table of a store and the stage that writes it.
+/// Returns the stage that writes each table of a store.
 const std::map<std::string, std::string>& stagesOfTables() {
   static const std::map<std::string, std::string> stages = {
       {"input", "input"},        {"node", "vo"},           {"extrinsic", "input"},       {"keyframe", "keyframes"},
@@ -85,7 +85,7 @@ const std::map<std::string, std::string>& stagesOfTables() {
   return stages;
 }
 
-/// A row as dump() prints it: its table, session and time; the rest is compared as text.
+/// A row printed by dump(): table, session and time; the rest is compared as text.
 struct DumpedRow {
   std::string table;
   SessionId session;
@@ -106,7 +106,7 @@ DumpedRow parseRow(const std::string& line) {
   return row;
 }
 
-/// Returns the lines of a dump, each once.
+/// Returns the unique lines of a dump.
 std::set<std::string> dumpedRows(Store& store, bool with_map) {
   std::set<std::string> rows;
   const std::string text = urban_nav_store::dump(store);
@@ -121,7 +121,7 @@ std::set<std::string> dumpedRows(Store& store, bool with_map) {
   return rows;
 }
 
-/// Returns the key of an edge without the line of the file that it is from: the file may be another one.
+/// Returns the key of an edge without the line of its file, which may differ.
 EdgeKey withoutFile(EdgeKey key) {
   std::string& source = std::get<5>(key);
   const std::size_t colon = source.rfind(':');

@@ -9,20 +9,20 @@
 
 namespace urban_nav {
 
-/// A difference between a store and the same map made again.
+/// A difference between a store and its recomputed map.
 struct Difference {
-  std::string stage;        ///< that has made it
+  std::string stage;        ///< that computed the differing result
   std::string session;      ///< name
   std::int64_t minute = 0;  ///< within the session, from 0
   std::string text;
 };
 
-/// Relaxes the measurements and edits of `measured`, and returns the differences of poses and verdicts to what `store`
-/// holds, with the edits of `store`. Both may be one store.
+/// Relaxes the measurements of `measured` with the edits of `store`, and returns the differences of poses and verdicts
+/// to `store`. Both may be the same store.
 std::vector<Difference> compareRelaxation(urban_nav_store::Store& store, urban_nav_store::Store& measured);
 
-/// Returns what stages have measured differently in two stores of the same recordings: odometry, keyframes, places,
-/// planes of the ground, scans, closures, and, if the store has never been edited, the rendered map.
+/// Returns the differences between measurements of two stores of the same recordings: odometry, keyframes, places,
+/// ground planes, scans, closures, and the rendered map if the store has never been edited.
 std::vector<Difference> compareMeasurements(urban_nav_store::Store& store, urban_nav_store::Store& again);
 
 }  // namespace urban_nav

@@ -29,7 +29,7 @@ using urban_nav_store::Store;
 
 namespace {
 
-/// A folder for temporary files, which vanishes with this object.
+/// A temporary folder, removed with this object.
 class ScratchFolder {
  public:
   ScratchFolder() : path_((fs::temp_directory_path() / "urban_nav-XXXXXX").string()) {
@@ -56,7 +56,7 @@ std::vector<std::string> splitLines(const std::string& text) {
   return lines;
 }
 
-/// Returns the arguments with which `map` has made the sessions of a store, for some of its recordings.
+/// Returns the arguments of the run of `map` that made the sessions of a store, for some of its recordings.
 Arguments storedArguments(Store& store, const Arguments& given, const std::string& out) {
   std::map<std::string, std::vector<std::string>> values = {{"INPUT", given.all("BAG")}, {"out", {out}}};
   const urban_nav_store::SessionId id = store.sessions().all().back().id;
@@ -69,7 +69,7 @@ Arguments storedArguments(Store& store, const Arguments& given, const std::strin
   return Arguments(std::move(values), [&given](ParameterSet& set) { given.addTables(set); });
 }
 
-/// Returns the sessions of a store that recordings make. Throws UserError for one that none is made of.
+/// Returns the sessions of a store for recordings. Throws UserError for a recording without a session.
 std::vector<urban_nav_store::SessionId> sessionsOfRecordings(Store& store, const MapOptions& options) {
   std::vector<urban_nav_store::SessionId> found;
   for (const std::string& input : options.inputs) {
@@ -81,7 +81,7 @@ std::vector<urban_nav_store::SessionId> sessionsOfRecordings(Store& store, const
     }
     for (const urban_nav_store::SessionId& id : sessionIds(options, sessions)) {
       if (!store.sessions().find(id))
-        throw UserError(input, "is no recording of " + store.path(), "recordings that map made this store of");
+        throw UserError(input, "is not a recording of " + store.path(), "recordings that map made this store of");
       found.push_back(id);
     }
   }
@@ -144,10 +144,10 @@ int runVerify(const Arguments& arguments, const StageFactory& make_stages, Conso
 Command verifyCommand(StageFactory make_stages) {
   Command command;
   command.name = "verify";
-  command.summary = "Makes the map of a session store again with this program and lists what differs.";
+  command.summary = "Recomputes the map of a session store with this program and lists the differences.";
   command.options = {
       {"STORE", "", "session.db of a map; it is only read", true, false, {}},
-      {"BAG", "", "recordings of the store: all stages run on them again, not the relaxation alone", false, true, {}},
+      {"BAG", "", "recordings of the store: runs all stages on them again, not only the relaxation", false, true, {}},
       jsonOption(),
       configOption(),
       setOption(),

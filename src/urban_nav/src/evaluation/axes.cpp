@@ -24,7 +24,7 @@ Matrix3d opticalInBody() { return urban_nav_ros::opticalInBody().q().toRotationM
 
 bool isSame(const Matrix3d& a, const Matrix3d& b) { return (a - b).cwiseAbs().maxCoeff() < kExact; }
 
-/// The 24 proper rotations whose matrices hold 0, 1 and -1 alone.
+/// Returns the 24 proper rotations with matrix elements 0, 1 and -1.
 std::vector<Matrix3d> axisRotations() {
   std::vector<Matrix3d> rotations;
   for (int x = 0; x < 6; ++x) {
@@ -77,7 +77,7 @@ AxesMatch detectAxes(const Matched& matched) {
   for (const Matrix3d& R : axisRotations()) {
     const AxesMatch match = toMatch(R);
     const double error = errorWith(match, matched);
-    // A straight path leaves open what is turned about it: known conventions take precedence.
+    // A rotation about a straight path is not observable: known conventions take precedence.
     const bool is_tied = error < least + kExact * length && best.axes == Axes::Turned && match.axes != Axes::Turned;
     if (error < least - kExact * length || is_tied) {
       best = match;
@@ -106,16 +106,16 @@ std::string describe(const AxesMatch& match) {
   switch (match.axes) {
     case Axes::EstimateOptical:
       return "the estimate has the axes of a camera (z forward), the truth those of a body (x forward): the estimate "
-             "is turned";
+             "is rotated";
     case Axes::TruthOptical:
       return "the truth has the axes of a camera (z forward), the estimate those of a body (x forward): the truth is "
-             "turned";
+             "rotated";
     case Axes::NedEnu:
       return "one file is in NED (body: x forward, y right, z down), the other in ENU (x forward, y left, z up): the "
-             "estimate is turned by 180 deg about x";
+             "estimate is rotated by 180 deg about x";
     case Axes::Turned:
       return "the axes of the two files differ (the estimate's by the truth's: " + axesText(match.R_truth_estimate) +
-             "): the estimate is turned";
+             "): the estimate is rotated";
     case Axes::Same: break;
   }
   return "";

@@ -29,7 +29,7 @@ TruthSigma parseTruthSigma(const std::vector<std::string>& words) {
     const auto value = i < words.size() ? urban_nav_core::parseNumber(words[i]) : std::nullopt;
     if (words.size() != 2 || !value || *value < 0.0)
       throw UserError("--truth-sigma", words.empty() ? "" : words[std::min(i, words.size() - 1)],
-                      "M,DEG: two numbers from zero on, such as 0.1,0.1");
+                      "M,DEG: two numbers of at least 0, such as 0.1,0.1");
     return *value;
   };
   sigma.m = number(0);
@@ -91,13 +91,13 @@ int runEvaluate(const Arguments& arguments, Console& console) {
   if (!run.warning.empty()) console.warn(run.warning);
   warnAboutFiles(truth, estimate, evaluation, console);
   if (!covariances.empty() && evaluation.covariances.empty())
-    console.warn("no NEES: " + std::to_string(covariances.size()) + " covariances, and not one for each of " +
-                 std::to_string(evaluation.matched.truth.size()) + " matched poses");
+    console.warn("no NEES: " + std::to_string(covariances.size()) + " covariances for " +
+                 std::to_string(evaluation.matched.truth.size()) + " matched poses; one per pose is needed");
   if (evaluation.offset && !evaluation.offset_applied) {
     console.warn("only " + std::to_string(evaluation.matched.truth.size()) +
-                 " poses have a stamp within 0.02 s of one of the truth; --find-offset would add " +
+                 " poses have a stamp within 0.02 s of a pose of the truth; --find-offset would add " +
                  urban_nav_core::formatNumber(1e-9 * static_cast<double>(evaluation.offset->offset), 9) +
-                 " s to the estimate's and match " + std::to_string(evaluation.offset->matched));
+                 " s to the stamps of the estimate and match " + std::to_string(evaluation.offset->matched));
   }
   console.print(evaluationText(evaluation));
   if (arguments.has("json")) {
@@ -122,7 +122,7 @@ Command evaluateCommand() {
                       true,
                       false,
                       {}},
-                     {"--estimate", "FILE", "the same", true, false, {}},
+                     {"--estimate", "FILE", "trajectory to evaluate, in one of the same formats", true, false, {}},
                      {"--covariance",
                       "FILE",
                       "covariances of the estimate's poses, for NEES (default: covariance.csv beside it)",
@@ -131,13 +131,13 @@ Command evaluateCommand() {
                       {}},
                      {"--spans",
                       "LIST",
-                      "of relative errors, in frames or metres (default 10m,100m; 10 frames always)",
+                      "spans of relative errors, in frames or metres (default 10m,100m; 10 frames always)",
                       false,
                       true,
                       {}},
                      {"--truth-sigma",
                       "M,DEG",
-                      "standard deviation of each pose of the truth, which NEES allows for (default 0,0)",
+                      "standard deviation of each pose of the truth, added to the covariance in NEES (default 0,0)",
                       false,
                       true,
                       {}},

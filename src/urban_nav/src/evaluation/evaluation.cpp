@@ -85,8 +85,8 @@ Evaluation::End evaluateEnd(const Matched& matched, const std::vector<urban_nav_
   return end;
 }
 
-/// Of T_first_i of a truth whose poses have independent errors: that of pose i, that of the first one, and the rotation
-/// of the first one over the distance.
+/// Returns the covariance of T_first_i of a truth whose poses have independent errors: that of pose i, that of the
+/// first pose, and the rotation error of the first pose times the distance.
 Matrix6d truthCovariance(const Pose& T_first_i, const TruthSigma& sigma) {
   const double m2 = sigma.m * sigma.m, rad2 = std::pow(sigma.deg * M_PI / 180.0, 2);
   Matrix6d covariance = Matrix6d::Zero();

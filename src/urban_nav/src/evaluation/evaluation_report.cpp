@@ -23,7 +23,7 @@ Grade gradeOfNees(double nees) {
   return ratio > kTooSmall || ratio < kTooLarge ? Grade::Fair : Grade::Good;
 }
 
-/// Relative to the first pose, in its axes.
+/// Returns poses relative to the first one, in its axes.
 std::vector<Pose> fromFirst(const std::vector<Pose>& poses) {
   std::vector<Pose> relative;
   relative.reserve(poses.size());
@@ -59,7 +59,7 @@ std::string percentText(const urban_nav_core::RelativeError& error) {
          " deg/m";
 }
 
-/// In which unit a length reads well.
+/// Unit of a length.
 struct Length {
   const char* name;
   double per_m;
@@ -71,7 +71,7 @@ std::string lengthText(double m) {
   return urban_nav_core::formatNumber(unit.per_m * m, 2) + " " + unit.name;
 }
 
-/// Two columns: what, how much.
+/// Returns rows of name and value.
 std::vector<std::vector<std::string>> formatFigures(const Evaluation& e) {
   std::vector<std::vector<std::string>> rows;
   rows.push_back({"poses", std::to_string(e.matched.truth.size()) + " matched, " + std::to_string(e.frames_estimate) +
@@ -137,7 +137,7 @@ Plot errorPlot(const Evaluation& evaluation) {
   plot.y_from_zero = true;
   plot.series.push_back(line("error, first poses aligned", "a", Series::Kind::Line, points));
   if (!way.empty() && way.back() > 1.0)
-    plot.series.push_back(line("1 % of the way", "plain", Series::Kind::Dashed, percent));
+    plot.series.push_back(line("1 % of distance", "plain", Series::Kind::Dashed, percent));
   return plot;
 }
 
@@ -168,14 +168,10 @@ Plot trustPlot(const Evaluation& evaluation, int coordinate) {
 }
 
 Section evaluationSection(const Evaluation& evaluation) {
-  Section section{"truth",
-                  "Against the truth",
-                  "Truth: " + evaluation.truth + ". It is looked at after the estimate is finished.",
-                  {},
-                  {},
-                  {}};
+  Section section{
+      "truth", "Against the truth", "Truth: " + evaluation.truth + ". It is not used by the estimate.", {}, {}, {}};
   section.figures.push_back(
-      {"From above", renderSvg(pathPlot(evaluation, 0, 1)), "First poses aligned, nothing else.", false});
+      {"From above", renderSvg(pathPlot(evaluation, 0, 1)), "Aligned at the first pose only.", false});
   section.figures.push_back({"From the side", renderSvg(pathPlot(evaluation, 0, 2)), "", false});
   section.figures.push_back({"Error over distance", renderSvg(errorPlot(evaluation)), "", true});
   static const std::array<const char*, 6> titles = {"Error along x", "Error along y",  "Error along z",
@@ -184,14 +180,14 @@ Section evaluationSection(const Evaluation& evaluation) {
     section.figures.push_back({titles[static_cast<std::size_t>(i)], renderSvg(trustPlot(evaluation, i)),
                                evaluation.covariances.empty()
                                    ? ""
-                                   : "The error should stay within the band nearly always, and fill it now and then.",
+                                   : "A consistent estimate keeps the error within the band 99.7 % of the time.",
                                false});
   }
   section.tables.push_back({"Figures",
                             {"what", "value"},
                             formatFigures(evaluation),
                             "Relative errors: of the motion over a span, in per cent and degrees of its true length. "
-                            "NEES: 6 where the covariance tells the truth, more where it is too small."});
+                            "NEES: 6 for a consistent covariance, larger if it is too small."});
   return section;
 }
 
@@ -201,14 +197,15 @@ std::vector<Verdict> evaluationVerdicts(const Evaluation& e) {
     const Grade grade = e.ten_frames->percent < 1.0   ? Grade::Good
                         : e.ten_frames->percent < 3.0 ? Grade::Fair
                                                       : Grade::Bad;
-    verdicts.push_back({grade, "Off by " + urban_nav_core::formatNumber(e.ten_frames->percent, 2) + " % of the way",
+    verdicts.push_back({grade, "Drift of " + urban_nav_core::formatNumber(e.ten_frames->percent, 2) + " % of distance",
                         "and " + urban_nav_core::formatNumber(e.ten_frames->deg_per_m, 2) +
-                            " deg per metre, over spans of ten frames. After " +
-                            urban_nav_core::formatNumber(e.length_m, 3) + " m the position is wrong by at most " +
+                            " deg per metre, over spans of ten frames. Over " +
+                            urban_nav_core::formatNumber(e.length_m, 3) + " m the position error is at most " +
                             lengthText(e.first.max) + "."});
   } else {
     const Grade grade = e.first.rmse < 0.01 ? Grade::Good : e.first.rmse < 0.1 ? Grade::Fair : Grade::Bad;
-    verdicts.push_back({grade, "Off by " + lengthText(e.first.rmse) + " while standing still,", "root mean square."});
+    verdicts.push_back(
+        {grade, "Position error of " + lengthText(e.first.rmse) + " at standstill,", "root mean square."});
   }
   if (e.nees) {
     const double ratio = e.nees->mean / kExpectedNees;
@@ -216,26 +213,26 @@ std::vector<Verdict> evaluationVerdicts(const Evaluation& e) {
     if (ratio > kTooSmall) {
       verdicts.push_back({grade, "The covariance is too small.",
                           "Errors are " + urban_nav_core::formatNumber(std::sqrt(ratio), 2) +
-                              " times as large as it says (NEES " + urban_nav_core::formatNumber(e.nees->mean, 3) +
-                              ", expected 6)."});
+                              " times their standard deviations (NEES " +
+                              urban_nav_core::formatNumber(e.nees->mean, 3) + ", expected 6)."});
     } else if (ratio < kTooLarge) {
       verdicts.push_back({grade, "The covariance is too large.",
                           "Errors are " + urban_nav_core::formatNumber(std::sqrt(ratio), 2) +
-                              " times as large as it says (NEES " + urban_nav_core::formatNumber(e.nees->mean, 3) +
-                              ", expected 6)."});
+                              " times their standard deviations (NEES " +
+                              urban_nav_core::formatNumber(e.nees->mean, 3) + ", expected 6)."});
     } else {
       verdicts.push_back(
-          {grade, "The covariance tells the truth.",
+          {grade, "The covariance is consistent.",
            "NEES " + urban_nav_core::formatNumber(e.nees->mean, 3) +
-               ", expected 6; errors along one path are not independent, so factors of two are chance."});
+               ", expected 6; errors along one path are correlated, so a factor of two is not significant."});
     }
   }
   if (e.offset && !e.offset_applied) {
-    verdicts.push_back({Grade::Fair, "Few stamps match the truth's.",
+    verdicts.push_back({Grade::Fair, "Few stamps match those of the truth.",
                         "Only " + std::to_string(e.matched.truth.size()) + " poses; with " +
                             urban_nav_core::formatNumber(1e-9 * static_cast<double>(e.offset->offset), 6) +
-                            " s added to the estimate's stamps " + std::to_string(e.offset->matched) +
-                            " would (evaluate --find-offset)."});
+                            " s added to the stamps of the estimate " + std::to_string(e.offset->matched) +
+                            " match (evaluate --find-offset)."});
   }
   return verdicts;
 }
@@ -249,7 +246,7 @@ std::vector<Tile> evaluationTiles(const Evaluation& e) {
                      e.ten_frames->percent < 1.0 ? Grade::Good : Grade::Fair});
   if (e.nees)
     tiles.push_back(
-        {urban_nav_core::formatNumber(e.nees->mean, 3), "", "NEES (6 is right)", gradeOfNees(e.nees->mean)});
+        {urban_nav_core::formatNumber(e.nees->mean, 3), "", "NEES (expected 6)", gradeOfNees(e.nees->mean)});
   return tiles;
 }
 

@@ -10,19 +10,19 @@
 
 namespace urban_nav {
 
-/// Plots of an evaluation, in the frame of the truth's first pose unless said otherwise.
+/// Returns the plot of two coordinates of both paths, in the frame of the first pose of the truth.
 Plot pathPlot(const Evaluation& evaluation, int a, int b);
 Plot errorPlot(const Evaluation& evaluation);
-/// Error of one coordinate (0...5: x, y, z in m, rotation about them in deg) within three standard deviations; without
-/// covariances the error alone.
+/// Returns the plot of the error of a coordinate (0...5: x, y, z in m, rotation about them in deg) with three standard
+/// deviations, if there are covariances.
 Plot trustPlot(const Evaluation& evaluation, int coordinate);
 
-/// "Against the truth": the plots above and a table of figures.
+/// Returns the section "Against the truth": the plots and a table of figures.
 Section evaluationSection(const Evaluation& evaluation);
 std::vector<Verdict> evaluationVerdicts(const Evaluation& evaluation);
 std::vector<Tile> evaluationTiles(const Evaluation& evaluation);
 
-/// The table that `evaluate` prints.
+/// Returns the table printed by `evaluate`.
 std::string evaluationText(const Evaluation& evaluation);
 
 }  // namespace urban_nav

@@ -13,7 +13,7 @@ using urban_nav_input::TrajectoryFile;
 
 namespace {
 
-// Poses of both files are printed in full, so that rounding is all that differs (m, rad).
+// Poses of both files are printed with full precision, so that they differ only by rounding (m, rad).
 constexpr double kRounding = 1e-6;
 
 bool haveSameMotion(const TrajectoryFile& camera, const TrajectoryFile& base) {
@@ -37,7 +37,7 @@ RunCovariances readRunCovariances(const TrajectoryFile& estimate) {
     return {{},
             "no NEES: the covariances of " + covariance + " are of base_link, the poses of " + estimate.path +
                 " of a camera" +
-                (fs::exists(base) ? " that moves otherwise, as it is mounted apart or tilted"
+                (fs::exists(base) ? " whose motion differs, since it is mounted off base_link or tilted"
                                   : ", and there is no trajectory.tum to show that the motion is the same") +
                 "; evaluate trajectory.tum with the truth of base_link, or give the camera's by --covariance"};
   } catch (const urban_nav_core::Error& error) {

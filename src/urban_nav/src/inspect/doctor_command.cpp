@@ -27,7 +27,7 @@ urban_nav_input::SourceOptions readSourceOptions(const Arguments& arguments) {
   return options;
 }
 
-/// Returns the line of a finding that `map` can repair; empty if it cannot.
+/// Returns the line with the options of `map` that repair a finding; empty without options.
 std::string repairLine(const urban_nav_input::Finding& finding) {
   if (finding.options.empty()) return "";
   std::string line = "    -> urban_nav map ...";
@@ -114,8 +114,8 @@ Command doctorCommand() {
   Command command;
   command.name = "doctor";
   command.summary =
-      "Reports what is wrong with bags or folders before they are mapped, each defect with what repairs it; exit "
-      "status 1 if they cannot be used.";
+      "Examines bags or folders before mapping and reports each defect with its remedy; exit status 1 if they cannot "
+      "be used.";
   command.options = {
       {"INPUT", "", "bags, or folders of KITTI, EuRoC or New College", true, true, {}},
       {"--topic",
@@ -125,7 +125,12 @@ Command doctorCommand() {
        true,
        {}},
       transformOption(),
-      {"--calibration", "FILE", "as of map: calib.txt, or LEFT.yaml,RIGHT.yaml (camera_info)", false, false, {}},
+      {"--calibration",
+       "FILE",
+       "if the input has none: calib.txt, or LEFT.yaml,RIGHT.yaml (camera_info)",
+       false,
+       false,
+       {}},
       {"--rate", "HZ", "frame rate of an image folder without times.txt (default 10)", false, false, {}},
       jsonOption(),
       configOption(),

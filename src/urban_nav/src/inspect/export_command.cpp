@@ -54,13 +54,13 @@ void checkFormats(const Arguments& arguments) {
                    arguments.has("results") || arguments.has("gpkg");
   if (!any)
     throw UserError(
-        "urban_nav export", "no format is asked for",
+        "urban_nav export", "no format is given",
         "--tum, --kitti, --g2o, --ply, --pcd, --las, --grid, --ortho, --mesh, --gpkg or --mcap FILE, or --places "
         "or --results DIR");
   if (arguments.has("crs")) {
     if (arguments.get("crs") != "local") parseCrs(arguments.get("crs"));
     if (!arguments.has("las") && !arguments.has("gpkg"))
-      throw UserError("--crs", "no --las or --gpkg FILE", "one of them, whose coordinates it sets");
+      throw UserError("--crs", "no --las or --gpkg FILE", "--crs with --las or --gpkg, whose coordinates it sets");
   }
   if (arguments.has("mcap")) checkResultPath(arguments.get("mcap"));
   const std::string ortho = arguments.get("ortho");
@@ -74,7 +74,7 @@ void checkFormats(const Arguments& arguments) {
     throw UserError("--grid", grid, "a name that ends in .yaml");
 }
 
-/// What is written, for the user and for --json.
+/// Written files, for the user and for --json.
 class Written {
  public:
   explicit Written(Console& console) : console_(console) { json_["files"] = Json::array(); }
@@ -92,7 +92,7 @@ class Written {
     json_["files"].append(file);
   }
   void leftOut(const std::string& sentence) { console_.info("left out: " + sentence); }
-  /// Where a map lies on the earth.
+  /// Notes the georeference of a map.
   void noteReference(const ExportedMap& made) {
     console_.info(made.crs);
     Json reference = Json::object();
@@ -119,7 +119,7 @@ std::string describe(const std::vector<StoredTrajectory>& map) {
     relaxed = relaxed && each.relaxed;
   }
   return std::to_string(poses) + " poses of " + std::to_string(map.size()) +
-         (map.size() == 1 ? " session" : " sessions") + (relaxed ? "" : ", as odometry says");
+         (map.size() == 1 ? " session" : " sessions") + (relaxed ? "" : ", by odometry");
 }
 
 void writeMaps(Store& store, const Maps& maps, const Arguments& arguments, Written& written) {
@@ -127,7 +127,8 @@ void writeMaps(Store& store, const Maps& maps, const Arguments& arguments, Writt
   std::size_t number = 0;
   for (const std::vector<StoredTrajectory>& map : maps) {
     const MapFilePaths paths = mapFilePaths(arguments, number);
-    if (!holdsMap(store, map) && (number > 0 || &map != &maps.back())) continue;  // the last one reports the lack
+    if (!holdsMap(store, map) && (number > 0 || &map != &maps.back()))
+      continue;  // the last one throws if there is no map
     const ExportedMap made = exportMap(store, map, paths, memory_mb, labelAttributes);
     if (made.reference) written.noteReference(made);
     const std::string points = made.points > 0 ? std::to_string(made.points) + " points of " : "";
@@ -203,62 +204,63 @@ int runExport(const Arguments& arguments, Console& console) {
 namespace {
 
 std::vector<Option> exportOptions() {
-  return {{"STORE", "", "session.db of a map; it is only read", true, false, {}},
-          {"--tum",
-           "FILE",
-           "base_link in map, a line per pose; maps that did not join go to FILE_2 and so on",
-           false,
-           false,
-           {}},
-          {"--kitti", "FILE", "the left camera relative to its first pose, a line per stereo frame", false, false, {}},
-          {"--g2o", "FILE", "the pose graph: all nodes, accepted edges", false, false, {}},
-          {"--ply", "FILE", "the map of laser points, with the bytes of map.ply", false, false, {}},
-          {"--pcd", "FILE", "the map of laser points for PCL", false, false, {}},
-          {"--las", "FILE", "the map of laser points as LAS 1.4, point format 7", false, false, {}},
-          {"--gpkg",
-           "FILE",
-           "trajectories, closures, coverage and quality of all sessions as layers of a GeoPackage",
-           false,
-           false,
-           {}},
-          {"--crs",
-           "auto,EPSG:N,local",
-           "coordinate system of --las and --gpkg; needs GPS fixes (default: local, the frame map)",
-           false,
-           false,
-           {}},
-          {"--grid",
-           "FILE.yaml",
-           "obstacles and free ground for map_server; the PGM is written next to it",
-           false,
-           false,
-           {}},
-          {"--ortho", "FILE.png", "the map from above; its world file is written beside it", false, false, {}},
-          {"--mesh", "FILE.ply", "the surface of the map as coloured triangles", false, false, {}},
-          {"--mcap",
-           "FILE.mcap",
-           "what map --mcap writes, for Foxglove; maps that did not join go to FILE_2 and so on",
-           false,
-           false,
-           {}},
-          {"--places",
-           "DIR",
-           "folder to write: places.csv with the pose of each place, their thumbnails, and the model of their words",
-           false,
-           false,
-           {}},
-          {"--results",
-           "DIR",
-           "folder to write: trajectories, covariances, closures.csv, graph.g2o and map.ply of all sessions, with the "
-           "bytes that map wrote",
-           false,
-           false,
-           {}},
-          {"--session", "ID", "only sessions whose id or name begins so (default: all)", false, true, {}},
-          jsonOption(),
-          configOption(),
-          setOption(),
-          threadsOption()};
+  return {
+      {"STORE", "", "session.db of a map; it is only read", true, false, {}},
+      {"--tum",
+       "FILE",
+       "base_link in map, a line per pose; maps that did not join go to FILE_2 and so on",
+       false,
+       false,
+       {}},
+      {"--kitti", "FILE", "the left camera relative to its first pose, a line per stereo frame", false, false, {}},
+      {"--g2o", "FILE", "the pose graph: all nodes, accepted edges", false, false, {}},
+      {"--ply", "FILE", "the map of laser points, identical to map.ply", false, false, {}},
+      {"--pcd", "FILE", "the map of laser points for PCL", false, false, {}},
+      {"--las", "FILE", "the map of laser points as LAS 1.4, point format 7", false, false, {}},
+      {"--gpkg",
+       "FILE",
+       "trajectories, closures, coverage and quality of all sessions as layers of a GeoPackage",
+       false,
+       false,
+       {}},
+      {"--crs",
+       "auto,EPSG:N,local",
+       "coordinate system of --las and --gpkg; needs GPS fixes (default: local, the frame map)",
+       false,
+       false,
+       {}},
+      {"--grid",
+       "FILE.yaml",
+       "obstacles and free space for map_server; the PGM is written next to it",
+       false,
+       false,
+       {}},
+      {"--ortho", "FILE.png", "the map from above; its world file is written next to it", false, false, {}},
+      {"--mesh", "FILE.ply", "the surface of the map as coloured triangles", false, false, {}},
+      {"--mcap",
+       "FILE.mcap",
+       "as map --mcap, for Foxglove; maps that did not join go to FILE_2 and so on",
+       false,
+       false,
+       {}},
+      {"--places",
+       "DIR",
+       "folder to write: places.csv with the pose of each place, their thumbnails, and the model of their words",
+       false,
+       false,
+       {}},
+      {"--results",
+       "DIR",
+       "folder to write: trajectories, covariances, closures.csv, graph.g2o and map.ply of all sessions, identical to "
+       "the output of map",
+       false,
+       false,
+       {}},
+      {"--session", "ID", "only sessions whose id or name begins with ID (default: all)", false, true, {}},
+      jsonOption(),
+      configOption(),
+      setOption(),
+      threadsOption()};
 }
 
 }  // namespace
@@ -266,7 +268,7 @@ std::vector<Option> exportOptions() {
 Command exportCommand() {
   Command command;
   command.name = "export";
-  command.summary = "Writes what a session store holds in other programs' formats.";
+  command.summary = "Writes the contents of a session store in the formats of other programs.";
   command.options = exportOptions();
   command.examples = {"urban_nav export out/session.db --tum trajectory.tum --g2o graph.g2o",
                       "urban_nav export out/session.db --las map.las --grid map.yaml --ortho map.png"};

@@ -27,7 +27,7 @@ using urban_nav_store::Store;
 
 namespace {
 
-/// Names of files below a folder that are stores or releases, sorted.
+/// Returns the sorted names of stores and releases below a folder.
 std::vector<std::string> findStores(const std::string& folder) {
   std::vector<std::string> names;
   std::error_code ignored;
@@ -57,7 +57,7 @@ double largestSigma(Store& store, const urban_nav_store::SessionId& id) {
   return largest;
 }
 
-/// Counts the closures of sessions with others, and how far the accepted ones are from the poses.
+/// Counts the closures of sessions with others, and computes the residuals of accepted ones.
 void addClosures(Store& store, std::vector<FleetSession>& sessions) {
   std::map<urban_nav_store::SessionId, std::map<StampNs, urban_nav_core::Pose>> poses;
   std::map<urban_nav_store::SessionId, std::vector<double>> misses;
@@ -123,7 +123,7 @@ std::string printName(const FleetSession& session) {
   return session.session.id.substr(0, 8) + " (" + session.session.name + ")";
 }
 
-/// Returns sentences on sessions whose calibration is not that of the one before of the same robot.
+/// Returns sentences on sessions whose calibration differs from the previous session of the same robot.
 std::vector<std::string> findDrifts(const std::vector<FleetSession>& sessions) {
   std::map<std::string, const FleetSession*> last;
   std::vector<std::string> sentences;
@@ -135,7 +135,7 @@ std::vector<std::string> findDrifts(const std::vector<FleetSession>& sessions) {
       const auto then = urban_nav_registration::parseCalibrationFingerprint(before->camera);
       const double pixels = std::abs(now->camera.left.fx - then->camera.left.fx);
       const double metres = distanceBetween(now->T_base_left, then->T_base_left);
-      sentences.push_back(printName(session) + ": the camera is not that of " + printName(*before) +
+      sentences.push_back(printName(session) + ": the camera differs from that of " + printName(*before) +
                           ": focal length by " + urban_nav_core::formatNumber(pixels, 3) +
                           " px, position on the robot by " + urban_nav_core::formatNumber(1e3 * metres, 3) + " mm");
     }
@@ -156,13 +156,12 @@ std::size_t countJoined(const Fleet& fleet) {
 }
 
 PageTable sessionTable(const Fleet& fleet) {
-  PageTable table{
-      "Sessions",
-      {"robot", "day", "session", "store", "m", "s", "map", "closures", "disagreement (m)", "sigma (m)", "poses OK (%)",
-       "why apart"},
-      {},
-      "Disagreement: median distance by which accepted closures with other sessions miss the relaxed poses. "
-      "Sigma: largest standard deviation of a position in the map."};
+  PageTable table{"Sessions",
+                  {"robot", "day", "session", "store", "m", "s", "map", "closures", "disagreement (m)", "sigma (m)",
+                   "poses OK (%)", "reason if separate"},
+                  {},
+                  "Disagreement: median residual of accepted closures with other sessions at the relaxed poses. "
+                  "Sigma: largest standard deviation of a position in the map."};
   const auto number = [](double value) { return urban_nav_core::formatNumber(value, 3); };
   for (const FleetSession& each : fleet.sessions)
     table.rows.push_back({each.session.robot, printDay(each.session.start), printName(each), each.store,
@@ -174,7 +173,7 @@ PageTable sessionTable(const Fleet& fleet) {
   return table;
 }
 
-/// Metres by robot and day.
+/// Returns the distance driven by robot and day, m.
 PageTable coverageTable(const Fleet& fleet) {
   std::map<std::pair<std::string, std::string>, std::pair<std::size_t, double>> driven;
   for (const FleetSession& each : fleet.sessions) {
@@ -198,7 +197,8 @@ PageTable listTable(const std::string& title, const std::string& head, const std
 }  // namespace
 
 Fleet readFleet(const std::string& folder) {
-  if (!fs::is_directory(folder)) throw urban_nav_core::UserError(folder, "is no folder", "a folder of session stores");
+  if (!fs::is_directory(folder))
+    throw urban_nav_core::UserError(folder, "is not a folder", "a folder of session stores");
   Fleet fleet;
   fleet.folder = folder;
   std::map<urban_nav_store::SessionId, FleetSession> sessions;
@@ -236,10 +236,9 @@ Page fleetPage(const Fleet& fleet) {
                 {std::to_string(joined), "", "joined to others", Grade::Plain},
                 {urban_nav_core::formatNumber(1e-3 * metres, 3), "km", "driven", Grade::Plain}};
   if (joined < fleet.sessions.size())
-    page.verdicts.push_back({Grade::Fair,
-                             std::to_string(fleet.sessions.size() - joined) + " sessions are not joined to others",
-                             "The table names the reason of each; urban_nav join makes one map of those that show the "
-                             "same places."});
+    page.verdicts.push_back(
+        {Grade::Fair, std::to_string(fleet.sessions.size() - joined) + " sessions are not joined to others",
+         "The table lists the reasons; urban_nav join makes one map of sessions that show the same places."});
   if (!fleet.unreadable.empty())
     page.verdicts.push_back({Grade::Bad, std::to_string(fleet.unreadable.size()) + " stores cannot be read",
                              fleet.unreadable.front().second});

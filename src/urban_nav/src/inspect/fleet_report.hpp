@@ -14,15 +14,15 @@ namespace urban_nav {
 struct FleetSession {
   urban_nav_store::Session session;
   std::string store;       ///< relative to the folder
-  std::string map;         ///< id of the session at whose first pose its map has its origin
-  std::size_t in_map = 0;  ///< sessions of its map in that store, itself included
+  std::string map;         ///< id of the session whose first pose is the origin of its map
+  std::size_t in_map = 0;  ///< number of sessions in its map in that store, itself included
   urban_nav_core::StampNs first = 0, last = 0;
   double distance_m = 0.0;
   double good_share = 1.0;   ///< of poses whose odometry is OK
   double sigma_m = 0.0;      ///< largest standard deviation of a position in its map
   std::size_t accepted = 0;  ///< closures with other sessions
   std::size_t candidates = 0;
-  double disagreement_m = 0.0;  ///< median distance by which accepted closures with other sessions miss the poses
+  double disagreement_m = 0.0;  ///< median residual of accepted closures with other sessions
   std::string camera;           ///< its calibration (calibrationFingerprint); empty: unknown
 };
 
@@ -35,8 +35,8 @@ struct Fleet {
   std::vector<std::string> drifts;  ///< sentences on calibrations that differ between sessions of one robot
 };
 
-/// Reads all stores below a folder, in the order of their names. A session that several stores hold is that of the
-/// store with the largest map. A store that cannot be read is listed. Throws UserError if `folder` is no folder.
+/// Reads all stores below a folder, in the order of their names. A session of several stores is taken from the
+/// one with the largest map. Unreadable stores are listed. Throws UserError if `folder` is not a folder.
 Fleet readFleet(const std::string& folder);
 
 Page fleetPage(const Fleet& fleet);

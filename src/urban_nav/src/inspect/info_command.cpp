@@ -117,19 +117,21 @@ int runInfo(const Arguments& arguments, Console& console) {
 Command infoCommand() {
   Command command;
   command.name = "info";
-  command.summary = "Says what is in a recording, folder or session store: sessions, topics, rates, gaps, distance.";
-  command.options = {{"INPUT", "", "recordings, folders, session stores or releases", true, true, {}},
-                     {"--report",
-                      "FILE.html",
-                      "one page on all stores below the folder INPUT: sessions by robot and day, joined or why not, "
-                      "quality, disagreement, calibrations",
-                      false,
-                      false,
-                      {}},
-                     jsonOption(),
-                     configOption(),
-                     setOption(),
-                     threadsOption()};
+  command.summary =
+      "Lists the contents of a recording, folder or session store: sessions, topics, rates, gaps, distance.";
+  command.options = {
+      {"INPUT", "", "recordings, folders, session stores or releases", true, true, {}},
+      {"--report",
+       "FILE.html",
+       "one page on all stores below the folder INPUT: sessions by robot and day, why some are not joined, "
+       "quality, disagreement, calibrations",
+       false,
+       false,
+       {}},
+      jsonOption(),
+      configOption(),
+      setOption(),
+      threadsOption()};
   command.examples = {"urban_nav info robot.bag out/session.db", "urban_nav info sessions --report fleet.html"};
   command.more_help = commonHelp;
   command.run = runInfo;

@@ -5,8 +5,8 @@
 
 namespace urban_nav {
 
-/// Return the commands that read recordings and session stores: what they hold, their defects, their content in other
-/// formats, several of them as one, and why a closure has its verdict.
+/// Return the commands that read recordings and session stores: contents, defects, export, merging, and explanation of
+/// verdicts on closures.
 Command infoCommand();
 Command doctorCommand();
 Command exportCommand();

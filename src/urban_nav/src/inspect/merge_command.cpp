@@ -13,7 +13,7 @@ namespace {
 
 std::string mapsSentence(std::size_t maps) {
   if (maps == 1) return "1 map\n";
-  return std::to_string(maps) + " maps: urban_nav join makes one of those that show the same places\n";
+  return std::to_string(maps) + " maps: urban_nav join makes one map of those that show the same places\n";
 }
 
 int runMerge(const Arguments& arguments, Console& console) {
@@ -39,7 +39,7 @@ int runMerge(const Arguments& arguments, Console& console) {
 Command mergeCommand() {
   Command command = storesCommand(true);
   command.name = "merge";
-  command.summary = "Puts the rows of session stores, of several computers or sessions, into one.";
+  command.summary = "Merges the rows of session stores, of several computers or sessions, into one store.";
   command.examples = {"urban_nav merge monday/session.db tuesday/session.db -o both.db"};
   command.more_help = commonHelp;
   command.run = runMerge;

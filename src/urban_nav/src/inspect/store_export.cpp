@@ -35,7 +35,7 @@ Pose makeCamera(Store& store, const urban_nav_store::Session& session) {
     if (extrinsic.frame == urban_nav_core::frames::kStereoLeft) return extrinsic.T_base_frame;
   throw UserError(
       store.path(),
-      "does not say where " + std::string(urban_nav_core::frames::kStereoLeft) + " stands in session " + session.id,
+      "has no pose of " + std::string(urban_nav_core::frames::kStereoLeft) + " on the robot in session " + session.id,
       "--tum, which needs no camera");
 }
 
@@ -51,7 +51,7 @@ std::string exportTum(const Store& store, const std::vector<StoredTrajectory>& m
     for (const StampedPose& pose : each.T_map_base)
       if (!trajectory.append(pose.stamp, pose.pose))
         throw UserError(store.path(), "session " + each.session.id + " overlaps another one in time",
-                        "one of them, by --session");
+                        "one session, by --session");
   return urban_nav_core::printTum(trajectory);
 }
 

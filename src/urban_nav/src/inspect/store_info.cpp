@@ -54,7 +54,7 @@ std::vector<urban_nav_input::StreamInfo> listStreams(Store& store, const urban_n
   return result;
 }
 
-/// Which sessions belong together, found by their accepted closures: disjoint sets.
+/// Groups of sessions joined by accepted closures, as disjoint sets.
 class Groups {
  public:
   explicit Groups(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
@@ -84,10 +84,10 @@ std::string toText(const StoredSession& each) {
   if (each.nodes > 0) {
     text += "    " + urban_nav_core::printStamp(each.first) + " ... " + urban_nav_core::printStamp(each.last) +
             " s: " + urban_nav_core::formatNumber(seconds, 4) + " s, " +
-            urban_nav_core::formatNumber(each.length_m, 4) + " m" + (each.relaxed ? "" : " (as odometry says)") +
+            urban_nav_core::formatNumber(each.length_m, 4) + " m" + (each.relaxed ? "" : " (by odometry)") +
             "\n    nodes " + std::to_string(each.nodes) +
             (seconds > 0.0
-                 ? ", " + urban_nav_core::formatNumber(static_cast<double>(each.nodes - 1) / seconds, 3) + " a second"
+                 ? ", " + urban_nav_core::formatNumber(static_cast<double>(each.nodes - 1) / seconds, 3) + " per second"
                  : "");
     for (const auto& [status, count] : each.status_counts)
       if (status != "OK") text += ", " + std::to_string(count) + " " + status;
@@ -115,10 +115,10 @@ std::string toText(const StoredSession& each) {
     for (const std::string& frame : each.frames) text += ", " + frame;
     text += "\n";
   }
-  if (each.resumable) text += "    a run of map can go on from here\n";
+  if (each.resumable) text += "    an interrupted run of map can continue from here\n";
   if (each.next_bag)
     text += "    state at the end of its last bag, " + printBytes(each.state_bytes) +
-            ": the next bag can go on from here\n";
+            ": the next bag can continue from here\n";
   return text;
 }
 

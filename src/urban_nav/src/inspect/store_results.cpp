@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::size_t kMostGraph = std::size_t{1} << 32;  // bytes of graph.g2o
 
-/// Poses and covariances of stored sessions, as the stages of `map` hand them to the writer of their files.
+/// Returns poses and covariances of stored sessions in the form used by `map` for its files.
 std::vector<SessionTrajectory> storedTrajectories(Store& store, const PreviousSessions& sessions,
                                                   std::vector<std::string>& left_out) {
   std::vector<SessionTrajectory> trajectories;
@@ -47,7 +47,7 @@ std::vector<SessionTrajectory> storedTrajectories(Store& store, const PreviousSe
   return trajectories;
 }
 
-/// Adds the graphs of sessions that nothing has relaxed: odometry alone, each in a file of its own.
+/// Adds the graphs of sessions that were not relaxed: odometry only, in separate files.
 void addOdometryGraphs(Store& store, const std::vector<SessionId>& ids, StoredResults& results) {
   for (std::size_t s = 0; s < ids.size(); ++s) {
     const urban_nav_store::StoredTrajectory trajectory = readTrajectory(store, *store.sessions().find(ids[s]));
@@ -62,7 +62,7 @@ void addOdometryGraphs(Store& store, const std::vector<SessionId>& ids, StoredRe
 
 StoredResults readResults(Store& store) {
   const PreviousSessions sessions = readPreviousSessions(store, {});
-  if (sessions.ids.empty()) throw urban_nav_core::DataError(store.path(), "holds no session with poses", "");
+  if (sessions.ids.empty()) throw urban_nav_core::DataError(store.path(), "has no session with poses", "");
   StoredResults results;
   std::vector<const SessionOdometry*> runs;
   for (const SessionOdometry& run : sessions.runs) runs.push_back(&run);

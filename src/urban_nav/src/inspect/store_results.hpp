@@ -15,16 +15,16 @@ struct StoredResults {
     std::string name, content;
   };
   std::vector<File> files;            ///< trajectories, covariances, closures.csv, graph.g2o
-  std::vector<std::string> left_out;  ///< sentences: what the store does not hold
+  std::vector<std::string> left_out;  ///< sentences on files that the store has no data for
 };
 
-/// Returns the files of all sessions of a store, in the order of their start, with the bytes that `map` wrote.
+/// Returns the files of all sessions of a store, in the order of their start, identical to the output of `map`.
 StoredResults readResults(urban_nav_store::Store& store);
 
-/// Returns the names that closures.csv gives the sessions of a store.
+/// Returns the names of the sessions of a store in closures.csv.
 std::map<urban_nav_store::SessionId, std::string> sessionNamesById(urban_nav_store::Store& store);
 
-/// Returns the number of the session, from 0, whose map has its frame from session `id`: what fileSuffix() takes.
+/// Returns the number, from 0, of the map whose origin is in session `id`, for fileSuffix().
 std::size_t numberOfSession(urban_nav_store::Store& store, const urban_nav_store::SessionId& id);
 
 }  // namespace urban_nav

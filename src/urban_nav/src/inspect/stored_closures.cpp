@@ -23,14 +23,14 @@ using urban_nav_store::Store;
 
 namespace {
 
-/// A row of closures.csv and its place there.
+/// A row of closures.csv and its position.
 struct PlacedRow {
   ClosurePlace place;
   std::vector<std::string> cells;
 };
 
-/// Returns the row of closures.csv with which an edge was stored, its cells to the last digit; nullopt for edges of
-/// other stages. `a`, `b`: names of its sessions.
+/// Returns the row of closures.csv stored with an edge, with exact cells; nullopt for edges of other stages. `a`, `b`:
+/// names of its sessions.
 std::optional<PlacedRow> storedRow(const std::string& evidence, const std::string& a, const std::string& b,
                                    const std::vector<std::string>& names) {
   const std::string_view text = evidence;
@@ -55,7 +55,7 @@ std::optional<PlacedRow> storedRow(const std::string& evidence, const std::strin
 
 namespace {
 
-/// Empties the cells of a row that hold what a stage has measured.
+/// Clears the measured cells of a row.
 void forgetMeasurement(std::vector<std::string>& cells) {
   constexpr std::size_t kCandidate = 5;  // session_a, stamp_a_ns, session_b, stamp_b_ns, probability
   for (std::size_t i = kCandidate; i < cells.size(); ++i) cells[i].clear();

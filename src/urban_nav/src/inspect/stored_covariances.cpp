@@ -20,7 +20,7 @@ StoredCovariances readStoredCovariances(urban_nav_store::Store& store, const urb
     if (!covariances.poses.empty()) covariances.steps.push_back(node.covariance);
     covariances.poses.push_back(found != relaxed.end() ? found->second : node.covariance_from_first);
   });
-  // The first pose of a map has the covariance zero, a session of several poses does not.
+  // Only the first pose of a map has a zero covariance.
   const bool unknown =
       covariances.poses.size() > 1 && std::all_of(covariances.poses.begin(), covariances.poses.end(),
                                                   [](const Matrix6d& covariance) { return covariance.isZero(0.0); });

@@ -8,14 +8,14 @@
 
 namespace urban_nav {
 
-/// Returns a command that makes one store, or release, of several; without its name, summary, examples and run.
+/// Returns a command that writes one store, or release, from several; without name, summary, examples and run.
 Command storesCommand(bool is_output_required);
 
-/// Throws DataError naming the session if a store holds one that a run of `map` has begun and not finished; that of a
-/// robot is as complete as it will ever be. Throws the errors of urban_nav_store.
+/// Throws DataError naming the session if a store has one of an unfinished run of `map`; sessions recorded live count
+/// as finished. Throws the errors of urban_nav_store.
 void requireFinished(const std::string& store);
 
-/// Writes a summary to the file of --json, if that is given.
+/// Writes a summary to the file of --json, if given.
 void writeSummary(const Arguments& arguments, const Json& json);
 
 }  // namespace urban_nav

@@ -32,7 +32,7 @@ const StoredClosure& byNumber(const std::vector<StoredClosure>& closures, std::i
   return *found;
 }
 
-/// The closure nearest to two times; null if none is within kNear of both.
+/// Returns the closure nearest to two times; null if none is within kNear of both.
 const StoredClosure* byTimes(const std::vector<StoredClosure>& closures, const TimeQuery& one, const TimeQuery& other) {
   const auto nearest = std::min_element(closures.begin(), closures.end(), [&](const auto& x, const auto& y) {
     return computeDistance(x, one, other) < computeDistance(y, one, other);
@@ -52,7 +52,7 @@ void explainUnproposed(const Arguments& arguments, urban_nav_store::Store& store
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), explainAsJson(pair).print());
 }
 
-/// Explains where a pose lies.
+/// Explains the pose at a moment.
 int explainJumpAt(const Arguments& arguments, Console& console) {
   if (arguments.has("T1") || arguments.has("closure"))
     throw UserError("urban_nav why", "--jump with moments or --closure", "one of them");
@@ -72,8 +72,8 @@ int runWhy(const Arguments& arguments, Console& console) {
   const bool moments = arguments.has("T1") || arguments.has("T2");
   if (arguments.has("jump")) return explainJumpAt(arguments, console);
   if (arguments.has("T1") != arguments.has("T2"))
-    throw UserError("urban_nav why", "one moment alone", "STORE T1 T2, or STORE --closure ID");
-  if (moments && arguments.has("closure")) throw UserError("urban_nav why", "moments and --closure", "one of them");
+    throw UserError("urban_nav why", "one moment only", "STORE T1 T2, or STORE --closure ID");
+  if (moments && arguments.has("closure")) throw UserError("urban_nav why", "moments and --closure", "one of the two");
   urban_nav_store::Store store = urban_nav_store::openForReading(arguments.get("STORE"));
   const std::vector<StoredClosure> closures = listClosures(store);
   if (!moments && !arguments.has("closure")) {
@@ -108,7 +108,7 @@ Command whyCommand() {
   Command command;
   command.name = "why";
   command.summary =
-      "Says why a loop closure was accepted or rejected, or never proposed, from the evidence in a session store.";
+      "Explains why a loop closure was accepted, rejected or not proposed, from the evidence in a session store.";
   command.options = {
       {"STORE", "", "session.db of a map; it is only read", true, false, {}},
       {"T1",
@@ -118,11 +118,16 @@ Command whyCommand() {
        false,
        {}},
       {"T2", "", "the other moment; without both, and without --closure, all closures are listed", false, false, {}},
-      {"--closure", "ID", "the closure with this number in that list", false, false, {}},
-      {"--jump", "T", "which closures hold the pose at this moment, and how far each one moves it", false, false, {}},
+      {"--closure", "ID", "the closure with this number in the list", false, false, {}},
+      {"--jump",
+       "T",
+       "the closures that determine the pose at this moment, and how far each of them moves it",
+       false,
+       false,
+       {}},
       {"-o,--output",
        "FILE.html",
-       "the same as a page, with the two views and their matches, and the clouds",
+       "the explanation as a page, with the two views, their matches and the clouds",
        false,
        false,
        {}},

@@ -61,7 +61,7 @@ JoinOptions readOptions(const Arguments& arguments, const std::string& out, Cons
 int reportJoin(const JoinRun& run, const Arguments& arguments, Console& console) {
   console.info(closuresSentence(run));
   for (const JoinRun::Apart& each : run.apart)
-    console.info("session " + each.session + " is a map of its own: " + each.reason);
+    console.info("session " + each.session + " is a separate map: " + each.reason);
   const StoreInfo info = readStoreInfo(arguments.get("output"));
   console.print(toText(info));
   Json json = toJson(info);
@@ -123,19 +123,19 @@ int runOnto(const Arguments& arguments, const StageFactory& make_stages, Console
   return 0;
 }
 
-/// Throws UserError unless the options are those of one kind of join.
+/// Throws UserError for options of different kinds of join.
 void checkOptions(const Arguments& arguments) {
   const bool is_plan = arguments.has("plan"), is_piece = arguments.has("piece"), is_finish = arguments.has("finish");
   const auto require = [](bool good, const std::string& found, const std::string& allowed) {
     if (!good) throw UserError("urban_nav join", found, allowed);
   };
   require(is_plan + is_piece + is_finish + arguments.has("onto") <= 1,
-          "more than one of --plan, --piece, --finish and --onto", "one of them");
+          "more than one of --plan, --piece, --finish and --onto", "only one");
   const bool needs_output = !is_plan && !is_piece, needs_stores = !is_piece && !is_finish;
   require(arguments.has("output") == needs_output, needs_output ? "no -o" : "-o with --plan or --piece",
-          needs_output ? "-o STORE" : "-o without them, or with --finish");
+          needs_output ? "-o STORE" : "no -o with --plan or --piece");
   require(arguments.all("STORE").empty() != needs_stores, needs_stores ? "no STORE" : "STORE with --piece or --finish",
-          needs_stores ? "at least one session store" : "the stores that the plan names");
+          needs_stores ? "at least one session store" : "no STORE: the plan names the stores");
 }
 
 int runJoin(const Arguments& arguments, const StageFactory& make_stages, Console& console) {
@@ -155,7 +155,7 @@ int runJoin(const Arguments& arguments, const StageFactory& make_stages, Console
 Command joinCommand(StageFactory make_stages) {
   Command command = storesCommand(false);
   command.name = "join";
-  command.summary = "Makes one map of sessions that were mapped apart.";
+  command.summary = "Joins sessions that were mapped separately into one map.";
   const std::vector<Option> modes = {
       {"--plan", "DIR", "splits the work: writes plan.json and independent pieces into this folder", false, false, {}},
       {"--piece",
@@ -164,10 +164,15 @@ Command joinCommand(StageFactory make_stages) {
        false,
        false,
        {}},
-      {"--finish", "DIR", "relaxes what the pieces of a plan have measured, and writes the store", false, false, {}},
+      {"--finish",
+       "DIR",
+       "relaxes the graph with the results of all pieces of a plan, and writes the store",
+       false,
+       false,
+       {}},
       {"--onto",
        "RELEASE",
-       "adds the sessions to a release, without the stores it was made from; what adds nothing is not kept",
+       "adds the sessions to a release, without the stores it was made from; sessions without new places are not kept",
        false,
        false,
        {}}};

@@ -6,7 +6,7 @@
 
 namespace urban_nav {
 
-/// Returns the command that makes one map of sessions that were mapped apart.
+/// Returns the command that joins separately mapped sessions into one map.
 Command joinCommand(StageFactory make_stages);
 
 }  // namespace urban_nav

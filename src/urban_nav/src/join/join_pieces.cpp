@@ -51,7 +51,7 @@ bool operator<(const Source& a, const Source& b) {
   return std::tie(a.start, a.first, a.relative) < std::tie(b.start, b.first, b.relative);
 }
 
-/// Returns the sources in an order that does not depend on that in which they are given, each once.
+/// Returns the unique sources in an order independent of the given one.
 std::vector<Source> sortSources(const std::vector<std::string>& stores, const std::string& folder) {
   std::map<std::string, Source> by_path;
   for (const std::string& path : stores) {
@@ -77,7 +77,7 @@ std::string describeLastCamera(const MapContext& context) {
   return camera ? urban_nav_registration::calibrationFingerprint(camera->camera, camera->T_base_left) : "";
 }
 
-/// Removes the pieces of a plan that the folder holds from before.
+/// Removes the pieces of an earlier plan from the folder.
 void removeEarlierPlan(const std::string& folder) {
   const std::string path = inFolder(folder, kPlanFile);
   if (!fs::exists(path)) return;
@@ -89,13 +89,14 @@ void removeEarlierPlan(const std::string& folder) {
   }
 }
 
-/// Throws UserError if a store is not there or is not that of the plan.
+/// Throws UserError if a store is missing or differs from that of the plan.
 void requireUnchanged(const std::vector<PlannedStore>& stores, const fs::path& folder) {
   for (const PlannedStore& store : stores) {
     const std::string path = (folder / store.path).lexically_normal().string();
-    if (!fs::exists(path)) throw UserError(path, "is not there", "the stores of the plan where they were, or with it");
+    if (!fs::exists(path))
+      throw UserError(path, "is missing", "the stores of the plan at their paths, or in its folder");
     if (digestOfFile(path) != store.digest)
-      throw UserError(path, "has changed since the plan was made", "urban_nav join --plan once more");
+      throw UserError(path, "has changed since the plan was made", "a new plan by urban_nav join --plan");
   }
 }
 
@@ -113,7 +114,7 @@ std::string printResult(const JoinPiece& piece, const std::vector<MetricClosure>
   return bytes;
 }
 
-/// Writes a file that appears whole, also while other processes, on this host or another one, write the same.
+/// Writes a file atomically, also while other processes, on any host, write the same file.
 void writeConcurrently(const std::string& path, const std::string& bytes) {
   std::random_device random;
   urban_nav_core::PartialFile partial(path, "." + std::to_string(random()) + std::to_string(random()) + ".part");
@@ -121,25 +122,25 @@ void writeConcurrently(const std::string& path, const std::string& bytes) {
   partial.commit();
 }
 
-/// Returns the closures that a piece has measured.
+/// Returns the closures measured by a piece.
 std::vector<MetricClosure> readResult(const std::string& path, const JoinPlan& plan) {
   if (!fs::exists(path + kDone))
-    throw DataError(path, "has no result: " + path + kDone + " is not there", "urban_nav join --piece " + path);
+    throw DataError(path, "has no result: " + path + kDone + " is missing", "a run of urban_nav join --piece " + path);
   const JoinPiece piece = readPiece(path);
   const std::string bytes = urban_nav_core::readBytes(path + kDone);
   urban_nav_store::ByteReader reader(bytes);
   const std::string_view format = reader.text(), of_plan = reader.text(), of_piece = reader.text();
   const auto closures = unpackClosures(reader.text());
-  const std::string again = "urban_nav join --piece " + path + " once more";
+  const std::string again = "a new run of urban_nav join --piece " + path;
   if (!reader.complete() || format != kResultFormat || !closures)
-    throw DataError(path + kDone, "is damaged, or no result of a piece", again);
+    throw DataError(path + kDone, "is damaged, or not the result of a piece", again);
   if (of_plan != plan.digest || piece.plan != plan.digest || of_piece != digestOfPiece(piece))
     throw UserError(path + kDone, "is the result of another plan or piece", again);
-  if (closures->size() != piece.candidates.size()) throw DataError(path + kDone, "is not complete", again);
+  if (closures->size() != piece.candidates.size()) throw DataError(path + kDone, "is incomplete", again);
   return *closures;
 }
 
-/// Returns the stage's view of the sessions of a piece.
+/// Returns the sessions of a piece as input of stage loops.
 loop_metric::StoredPlaceData::Sessions readSessions(const JoinPiece& piece, const std::vector<std::string>& paths,
                                                     const urban_nav_registration::MountedCamera& camera) {
   loop_metric::StoredPlaceData::Sessions sessions;

@@ -22,8 +22,8 @@ namespace {
 
 using Parsed = nlohmann::json;
 
-constexpr std::size_t kBlock = std::size_t{1} << 24;  // bytes of a file that are digested at once
-constexpr std::size_t kMostCandidates = 200;          // of a piece: some 20 s
+constexpr std::size_t kBlock = std::size_t{1} << 24;  // bytes of a file digested at a time
+constexpr std::size_t kMostCandidates = 200;          // per piece: about 20 s
 constexpr const char* kPlanFormat = "urban_nav join plan 1";
 constexpr const char* kPieceFormat = "urban_nav join piece 1";
 
@@ -64,7 +64,7 @@ std::vector<std::string> readWords(const Parsed& list) {
   return words;
 }
 
-/// Throws what nlohmann::json throws for a member that is missing or of another type.
+/// Throws the exception of nlohmann::json for a missing member or one of another type.
 void readContent(const Parsed& json, PlanContent& content) {
   for (const Parsed& store : json.at("stores")) content.stores.push_back({store.at("path"), store.at("digest")});
   for (const Parsed& session : json.at("sessions")) {

@@ -11,7 +11,7 @@
 
 namespace urban_nav {
 
-/// A store that a plan or a piece names.
+/// A store of a plan or a piece.
 struct PlannedStore {
   std::string path;    ///< relative to the folder of the plan
   std::string digest;  ///< of its bytes (digestOfFile)
@@ -20,27 +20,27 @@ struct PlannedStore {
 /// A session of a plan.
 struct PlannedSession {
   urban_nav_store::SessionId id;
-  std::string name;       ///< as candidates name it
-  std::size_t store = 0;  ///< where it is read: index among the stores
+  std::string name;       ///< its name in candidates
+  std::size_t store = 0;  ///< index of its store
 };
 
-/// Content that a plan and its pieces have in common.
+/// Common content of a plan and its pieces.
 struct PlanContent {
   std::vector<PlannedStore> stores;
   std::vector<PlannedSession> sessions;
-  std::vector<std::string> parameters;  ///< those that are not the defaults: "loop_metric.icp=off"
-  std::string camera;                   ///< to which views of all sessions are converted (calibrationFingerprint)
+  std::vector<std::string> parameters;  ///< those that differ from the default: "loop_metric.icp=off"
+  std::string camera;  ///< camera to which the views of all sessions are converted (calibrationFingerprint)
   std::vector<urban_nav_core::MetricClosure> candidates;
 };
 
-/// A part of a join that can be measured by itself: the candidates between the sessions of two stores, or of one.
+/// An independent part of a join: the candidates between the sessions of two stores, or of one.
 struct JoinPiece : PlanContent {
   std::string plan;  ///< digest of the plan
 };
 
-/// A join that is split into pieces. Its candidates are those of all pieces, in the order in which they were found.
+/// A join split into pieces. Its candidates are those of all pieces, in the order in which they were found.
 struct JoinPlan : PlanContent {
-  std::string digest;               ///< of all that is below and of the pieces
+  std::string digest;               ///< of the following members and of the pieces
   std::vector<std::string> pieces;  ///< names of files in the folder of the plan
   std::vector<std::string> warnings;
 };
@@ -53,11 +53,11 @@ std::vector<JoinPiece> splitPlan(JoinPlan& plan);
 
 Json toJson(const JoinPlan& plan);
 Json toJson(const JoinPiece& piece);
-/// Read what toJson() has printed. Throw UserError naming the file for anything else.
+/// Read the output of toJson(). Throw UserError naming the file for other content.
 JoinPlan readPlan(const std::string& path);
 JoinPiece readPiece(const std::string& path);
 
-/// Returns the assignments of a set that are not the defaults, without those on which no result depends.
+/// Returns the assignments of a set that differ from the defaults, without those that do not affect results.
 std::vector<std::string> chosenParameters(const ParameterSet& parameters);
 
 }  // namespace urban_nav

@@ -25,7 +25,7 @@ std::string reasonApart(const JoinRun& run, const urban_nav_store::SessionId& id
   std::size_t candidates = 0;
   for (const JoinRun::Between& between : run.between)
     if (between.a == id || between.b == id) candidates += between.candidates;
-  if (candidates == 0) return "none of its places was recognised in another session";
+  if (candidates == 0) return "no place of it was recognised in another session";
   return "none of its " + std::to_string(candidates) + " candidates for closures with other sessions was accepted";
 }
 
@@ -61,7 +61,7 @@ void findApart(const MapContext& context, JoinRun& run) {
       run.apart.push_back({context.previous.ids[s], reasonApart(run, context.previous.ids[s])});
 }
 
-/// States with which a run could go on reading are kept for the last session alone: the others have ended.
+/// Removes the states for continuing a session, except that of the last one.
 void dropStates(Store& store) {
   const std::vector<urban_nav_store::Session> sessions = store.sessions().all();
   const auto last = std::max_element(
@@ -108,7 +108,7 @@ Join::Join(JoinOptions options, AllStages stages, Console& console)
   context_->joins = true;
   context_->previous = readPreviousSessions(*store_, {});
   if (context_->previous.runs.empty())
-    throw DataError(sources_.front(), "holds no session with poses", "stores that map has written");
+    throw DataError(sources_.front(), "has no session with poses", "stores written by map");
   context_->names = context_->previous.names;
   context_->trajectories = odometryTrajectories(context_->runs(), 0);
 }

@@ -28,37 +28,37 @@ struct JoinRun {
     urban_nav_store::SessionId session;
     std::string reason;
   };
-  /// Closures between two sessions, the earlier one first.
+  /// Closures between two sessions, the first of which is the earlier one.
   struct Between {
     urban_nav_store::SessionId a, b;
     std::size_t candidates = 0, accepted = 0;
   };
 
-  std::vector<Apart> apart;  ///< sessions that no closure joins to another one
+  std::vector<Apart> apart;  ///< sessions without closures with other ones
   std::vector<Between> between;
   std::size_t candidates = 0, accepted_stereo = 0, accepted_icp = 0, rejected = 0;
   std::vector<std::string> warnings;
 };
 
-/// A join in progress: the sessions of all stores in an unfinished store next to `out`, which vanishes unless it is
+/// A join in progress: the sessions of all stores in a temporary store next to `out`, which is removed unless
 /// published. Not thread-safe.
 class Join {
  public:
-  /// Throws UserError for stores that cannot be opened, DataError for damaged or unfinished ones and for sessions that
-  /// two stores hold with different content.
+  /// Throws UserError for stores that cannot be opened, DataError for damaged or unfinished ones and for sessions with
+  /// different content in two stores.
   Join(JoinOptions options, AllStages stages, Console& console);
 
-  /// Finds the candidates for closures among the places of all sessions: closures of context().
+  /// Finds candidates for closures among the places of all sessions, in context().closures.
   void findCandidates();
-  /// Measures the candidates, but for those in context().measured, and relaxes all sessions.
+  /// Measures the candidates that are not in context().measured, and relaxes all sessions.
   void relax();
-  /// Gives the joined store its name, and returns what came of it. Ends the join.
+  /// Moves the joined store to its path and returns the result. Ends the join.
   JoinRun publish();
 
   MapContext& context() { return *context_; }
   urban_nav_store::Store& store() { return *store_; }
   const std::vector<std::string>& warnings() const { return run_.warnings; }
-  /// Adds one of an earlier part of the join.
+  /// Adds a warning of a previous part of the join.
   void addWarning(const std::string& warning) { run_.warnings.push_back(warning); }
 
  private:
@@ -69,17 +69,17 @@ class Join {
   MapOptions options_;
   std::unique_ptr<urban_nav_store::Store> store_;
   std::unique_ptr<MapContext> context_;
-  ClosurePoses accepted_before_;  // of the sources
+  ClosurePoses accepted_before_;  // in the source stores
   JoinRun run_;
 };
 
-/// Runs the stage of this name, and adds its warnings to `warnings`. One without input is left out.
+/// Runs the stage of this name and adds its warnings to `warnings`. Skips a stage without input.
 void runStage(const AllStages& stages, const std::string& name, MapContext& context,
               std::vector<std::string>& warnings);
 
-/// Makes one map of sessions that were mapped apart: each place of each session is compared with all earlier ones,
-/// candidates are measured from what the stores hold, and all sessions are relaxed together, as if one run of `map` had
-/// read them in the order of their start. Throws as Join does; nothing is then left at `out`.
+/// Joins separately mapped sessions into one map: compares each place with all earlier ones, measures the candidates
+/// from the data in the stores and relaxes all sessions together, as one run of `map` on all sessions in the order of
+/// their start. Throws the errors of Join, without writing `out`.
 JoinRun joinStores(JoinOptions options, AllStages stages, Console& console);
 
 }  // namespace urban_nav

@@ -23,7 +23,7 @@ using urban_nav_store::Store;
 
 namespace {
 
-// Within a release nothing moves: its poses are tied by this, far less than any closure states.
+// Poses of a release are fixed: their edges have these standard deviations, far below those of closures.
 constexpr double kRigidSigma = 1e-4;       // m, of the position of one pose relative to another
 constexpr double kRigidSigmaAngle = 1e-5;  // rad
 constexpr const char* kReleaseEdge = "release";
@@ -35,7 +35,7 @@ Matrix6d rigidCovariance() {
   return covariance;
 }
 
-/// The release and the sessions that are offered to it in one store.
+/// The release and the sessions to add, in one store.
 class Addition {
  public:
   Addition(const std::string& release, JoinOptions options, AllStages stages, Console& console)
@@ -48,7 +48,7 @@ class Addition {
                      {}, std::move(options.parameters), options.threads},
         context_(map_options_, console) {
     if (!urban_nav_store::isRelease(release))
-      throw urban_nav_core::UserError(release, "is no release", "what urban_nav release has written");
+      throw urban_nav_core::UserError(release, "is not a release", "a file written by urban_nav release");
     for (const std::string& store : sources_) requireFinished(store);
     for (const std::unique_ptr<Stage>& stage : stages_) stage->select(map_options_);  // reports bad files first
     collect();
@@ -77,7 +77,7 @@ class Addition {
   }
 
  private:
-  /// Makes a store of the release and the sessions that it does not hold.
+  /// Writes the release and the sessions that are new to it into one store.
   void collect() {
     const std::string offered = workplace_.folder() + "/offered.db", known = workplace_.folder() + "/release.db";
     urban_nav_store::copyRows(release_, known, [](const auto&, const auto&) { return true; });
@@ -114,7 +114,7 @@ class Addition {
       if (!poses.empty()) tie(store, ids[s]);
     }
     if (reference_.empty())
-      throw urban_nav_core::DataError(release_, "is damaged: it holds no poses", "a release of urban_nav release");
+      throw urban_nav_core::DataError(release_, "is damaged: it has no poses", "a file written by urban_nav release");
     context_.trajectories = odometryTrajectories(context_.runs(), 0);
   }
 
@@ -152,7 +152,7 @@ class Addition {
     ties_.push_back(edge);
   }
 
-  /// Puts the poses of the release back, and those of joined sessions into its frame.
+  /// Restores the poses of the release, and transforms those of joined sessions to its frame.
   void place(Store& store) {
     for (const urban_nav_store::Edge& edge : ties_) store.graph().remove(edge);
     const std::vector<SessionId>& ids = context_.previous.ids;
@@ -216,7 +216,7 @@ class Addition {
       added.places = kept.places.size();
       added.keyframes = kept.keyframes.size();
       if (added.kept) kept_.push_back(std::move(kept));
-      else added.reason = "it shows nothing that the release does not hold";
+      else added.reason = "it shows no place that is new to the release";
     }
   }
 
@@ -228,8 +228,8 @@ class Addition {
   const MapOptions map_options_;
   MapContext context_;
   urban_nav_store::ReleaseHead head_;
-  SessionId first_;      // at whose first pose the map has its origin
-  SessionId reference_;  // the first of the release that has poses
+  SessionId first_;      // whose first pose is the origin of the map
+  SessionId reference_;  // first session of the release with poses
   std::set<SessionId> in_release_;
   std::map<SessionId, std::vector<RelaxedPose>> poses_;  // of the release
   std::vector<urban_nav_store::Anchor> anchors_;         // of its sessions

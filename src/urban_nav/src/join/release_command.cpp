@@ -78,12 +78,12 @@ Json toJson(const ReleaseRun& run) {
 Command releaseCommand() {
   Command command = storesCommand(false);
   command.name = "release";
-  command.summary = "Freezes a map into a file of bounded size to localise in, or compares two such files.";
+  command.summary = "Writes a map of bounded size for localisation, or compares two such files.";
   command.options[0].sentence = "session store; with --diff two releases";
   command.options[1] = {"-o,--output", "RELEASE", "release to write; it appears when it is complete", false, false, {}};
   command.options.insert(
       command.options.begin() + 2,
-      {"--diff", "", "what the second release has that the first one has not, and what it has lost", false, false, {}});
+      {"--diff", "", "compare two releases: places, keyframes and sessions added and lost", false, false, {}});
   command.examples = {"urban_nav release site.db -o site.release",
                       "urban_nav release --diff monday.release site.release",
                       "urban_nav map robot.bag --localise site.release --out out"};

@@ -7,7 +7,7 @@
 
 namespace urban_nav {
 
-/// Returns the command that freezes a map, or compares two frozen ones.
+/// Returns the command that writes a release of a map, or compares two releases.
 Command releaseCommand();
 
 /// Returns the summary of a release, without its warnings.

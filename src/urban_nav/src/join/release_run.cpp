@@ -29,13 +29,13 @@ using urban_nav_store::StoredTrajectory;
 namespace {
 
 constexpr StampNs kPlaceGap = 1'000'000'000;  // ns between the poses before and after a place
-constexpr double kSamePlaceDistance = 3.0;    // m: where one release has a place nearer than that, none is lost
-constexpr double kMoved = 0.1;                // m
-constexpr double kSurfaceCell = 0.25;         // m: surfaces are compared by cells and the ones around them
+constexpr double kSamePlaceDistance = 3.0;  // m: a place with one of the other release within this distance is not lost
+constexpr double kMoved = 0.1;              // m
+constexpr double kSurfaceCell = 0.25;       // m: surfaces are compared by cells and their neighbours
 
 using Voxel = std::tuple<int, int, int>;
 
-/// Content by which two releases are compared.
+/// Content for the comparison of two releases.
 struct ReleaseContent {
   ReleaseHead head;
   std::map<std::pair<std::string, StampNs>, Vector3d> places;
@@ -43,7 +43,7 @@ struct ReleaseContent {
   bool has_surfaces = false;
 };
 
-/// Removes thumbnails from the places of a release: localization does not need them.
+/// Removes thumbnails from the places of a release, since localization does not need them.
 void removeThumbnails(Store& store, const std::vector<KeptSession>& kept) {
   urban_nav_store::TableStore<StoredPlace> places(store);
   for (const KeptSession& session : kept)
@@ -83,7 +83,7 @@ ReleaseContent readContent(const std::string& path, double memory_mb) {
   return content;
 }
 
-/// Returns how many places of `a` have none of `b` near them.
+/// Returns the number of places of `a` without one of `b` nearby.
 std::size_t countLost(const ReleaseContent& a, const ReleaseContent& b) {
   std::map<std::pair<int, int>, std::vector<Vector3d>> cells;
   const auto toCell = [](const Vector3d& p) {
@@ -106,7 +106,7 @@ std::size_t countLost(const ReleaseContent& a, const ReleaseContent& b) {
   return lost;
 }
 
-/// Returns the area of the surfaces of `a` that `b` has not, m2.
+/// Returns the area of the surfaces of `a` that are missing in `b`, m2.
 double areaLost(const ReleaseContent& a, const ReleaseContent& b) {
   std::size_t lost = 0;
   for (const auto& [x, y, z] : a.surfaces) {
@@ -158,7 +158,7 @@ ReleaseRun makeRelease(const std::string& path, const std::string& out, const Pa
   {
     Store store = urban_nav_store::openForReading(path, Access::Snapshot);
     const auto maps = readMaps(store, store.sessions().all());
-    if (maps.empty()) throw DataError(path, "holds no session", "a store that map has written");
+    if (maps.empty()) throw DataError(path, "holds no session", "a store written by map");
     for (std::size_t m = 1; m < maps.size(); ++m) left_out += maps[m].size();
     first = maps.front().front().map;
     ReleaseSelection selection(parameters.get(urban_nav_registration::table()).cloud_half_length);
@@ -171,12 +171,12 @@ ReleaseRun makeRelease(const std::string& path, const std::string& out, const Pa
   const bool has_views =
       std::any_of(kept.begin(), kept.end(), [](const KeptSession& session) { return !session.keyframes.empty(); });
   if (!has_views)
-    throw DataError(path, "holds no keyframes to localize by", "a store of map with stages vo, places and loops");
+    throw DataError(path, "has no keyframes for localisation", "a store of map with stages vo, places and loops");
   ReleaseRun run = writeRelease(path, kept, first, {}, out);
   if (left_out > 0)
     run.warnings.push_back(std::to_string(left_out) +
-                           " sessions are left out: they are in other maps (urban_nav join makes one of those that "
-                           "show the same places)");
+                           " sessions are left out: they are in other maps (urban_nav join makes one map of those "
+                           "that show the same places)");
   return run;
 }
 
@@ -184,7 +184,7 @@ ReleaseDifference compareReleases(const std::string& a, const std::string& b, do
   const ReleaseContent before = readContent(a, memory_mb), after = readContent(b, memory_mb);
   if (!areRelated(before.head, after.head))
     throw DataError(b, "shares no parent with " + a + ": their maps have no common frame",
-                    "releases of one line: join --onto makes the next one");
+                    "releases of which one was made from the other by join --onto");
   ReleaseDifference difference;
   difference.places_lost = countLost(before, after);
   difference.places_new = countLost(after, before);
@@ -195,7 +195,7 @@ ReleaseDifference compareReleases(const std::string& a, const std::string& b, do
     difference.surfaces_gone_m2 = areaLost(before, after);
     difference.surfaces_new_m2 = areaLost(after, before);
   } else {
-    difference.warnings.emplace_back("surfaces are not compared: a release holds no map of points");
+    difference.warnings.emplace_back("surfaces are not compared: a release has no point map");
   }
   return difference;
 }

@@ -28,21 +28,21 @@ namespace {
 
 constexpr double kGroundCell = 3.0;        // m, at least the distances below
 constexpr double kKeptViewDistance = 1.0;  // m, and
-constexpr double kKeptViewAngle = 0.35;    // rad: of keyframes so near, 92 to 100 of 100 match
+constexpr double kKeptViewAngle = 0.35;    // rad: 92 to 100 of 100 keyframes within these limits match
 constexpr double kOwnViewDistance = 0.5;   // m
 constexpr double kPlaceDistance = 2.0;     // m: panoramas, whatever the heading
 constexpr double kOwnPlaceDistance = 0.4;  // m
 constexpr double kAnyAngle = 4.0;          // rad: no limit
-constexpr double kSameFeatures = 0.5;      // share of features that agree: the other view adds nothing
-constexpr std::size_t kAppearances = 3;    // sessions that keep views of one place and heading
-constexpr double kCloudDistance = 5.0;     // m between the centres of clouds, as CloudSearch has them
+constexpr double kSameFeatures = 0.5;      // share of matching features above which a view adds nothing
+constexpr std::size_t kAppearances = 3;    // sessions with views of the same place and heading
+constexpr double kCloudDistance = 5.0;     // m between the centres of clouds, as in CloudSearch
 constexpr StampNs kAround = 500'000'000;   // ns of poses around a view, from which those of panoramas are interpolated
 
 std::pair<int, int> groundCell(const Vector3d& p) {
   return {static_cast<int>(std::floor(p.x() / kGroundCell)), static_cast<int>(std::floor(p.y() / kGroundCell))};
 }
 
-/// Calls `visit` with the elements of the cells around a point; ends where it returns false.
+/// Calls `visit` with the elements of the cells around a point until it returns false.
 template <typename Element, typename Visit>
 void forEachAround(const std::map<std::pair<int, int>, std::vector<Element>>& cells, const Vector3d& p, int reach,
                    const Visit& visit) {
@@ -61,7 +61,7 @@ double agreement(const std::string& one, const std::string& other) {
   return fabmap_node::secondLook(fabmap_node::unpackLook(one, "view"), fabmap_node::unpackLook(other, "view")).share;
 }
 
-/// Appends an interval to those before it; joins them where they touch.
+/// Appends an interval, merged with the last one if they touch.
 void append(KeptSession::Interval interval, std::vector<KeptSession::Interval>& intervals) {
   if (!intervals.empty() && interval.first <= intervals.back().second)
     intervals.back().second = std::max(intervals.back().second, interval.second);
@@ -188,15 +188,15 @@ namespace {
 
 constexpr StampNs kSecond = 1'000'000'000;
 
-/// Tables of which a release has no rows: what only a later relaxation, another drive of the same recording or the
-/// colours of the map need.
+/// Tables omitted from a release: data needed only for a later relaxation, another run on the same recording or the
+/// colours of the map.
 const std::set<std::string>& leftOutTables() {
   static const std::set<std::string> names = {"panorama", "camera",     "input",       "parameter",
                                               "evidence", "graph_file", "edge_number", "edit"};
   return names;
 }
 
-/// Decides about the rows of one table.
+/// Selects the rows of one table.
 class RowSelection {
  public:
   RowSelection(const std::vector<KeptSession>& sessions, SessionId first) : first_(std::move(first)) {

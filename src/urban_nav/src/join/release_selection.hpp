@@ -12,32 +12,32 @@
 
 namespace urban_nav {
 
-/// Part of a session that a release keeps.
+/// Part of a session kept in a release.
 struct KeptSession {
   using Interval = std::pair<urban_nav_core::StampNs, urban_nav_core::StampNs>;
 
   urban_nav_store::SessionId id;
   std::set<urban_nav_core::StampNs> keyframes, places;
-  std::vector<Interval> stretches;  ///< of scans and of the map of points, in order of time; they do not overlap
+  std::vector<Interval> stretches;  ///< of scans and of the point map, in order of time, disjoint
 
-  bool is_whole = false;  ///< all rows are kept, whatever is above
+  bool is_whole = false;  ///< all rows are kept, regardless of the other members
 
   bool isEmpty() const { return keyframes.empty() && places.empty() && stretches.empty(); }
 };
 
-/// Selects what of a map localizes as well as all of it. The result is bounded by the area of the map, not by the
-/// number of its sessions: of one place and heading it keeps the views of a few sessions whose features differ, of the
-/// panoramas of a place in the same manner, and of the scans those of the first passes that cover the area.
+/// Selects a part of a map that is sufficient for localization. Its size is bounded by the area of the map, not by the
+/// number of sessions: keeps, per place and heading, views and panoramas of a few sessions with different features, and
+/// the scans of the first passes that cover the area.
 ///
-/// Sessions are offered one after another; what was kept before stays. Not thread-safe.
+/// Sessions are added one after another, without effect on the previous selection. Not thread-safe.
 class ReleaseSelection {
  public:
-  /// `cloud_half_length`: of the clouds that localization aligns, m along the path.
+  /// `cloud_half_length`: half length of the clouds for localization, m along the path.
   explicit ReleaseSelection(double cloud_half_length) : cloud_half_length_(cloud_half_length) {}
 
   /// Selects from a session, whose rows are in `store`.
   KeptSession add(urban_nav_store::Store& store, const urban_nav_store::StoredTrajectory& session);
-  /// Keeps a session of a release as it is.
+  /// Keeps a session of a release unchanged.
   KeptSession addWhole(urban_nav_store::Store& store, const urban_nav_store::StoredTrajectory& session);
 
  private:
@@ -46,15 +46,15 @@ class ReleaseSelection {
     urban_nav_core::Pose T_map_base;
     std::string features;  ///< packed descriptors; empty: unknown
   };
-  /// Limits within which two views are of one place and heading.
+  /// Limits within which two views have the same place and heading.
   struct Nearness {
     double distance, angle;  ///< m, rad
-    double own_distance;     ///< m; of the same session, which moves on between its views
+    double own_distance;     ///< m; between views of the same session
   };
-  /// The views that were kept, by cells of the ground.
+  /// Kept views, by grid cells of the ground.
   class Views {
    public:
-    /// Returns whether a view adds something, and keeps it if so.
+    /// Keeps a view if it adds new features; returns whether it was kept.
     bool add(const View& view, const Nearness& nearness);
     void keep(const View& view);
 
@@ -73,7 +73,7 @@ class ReleaseSelection {
   std::map<std::pair<int, int>, std::vector<urban_nav_core::Vector3d>> clouds_;  // centres, by cells
 };
 
-/// Returns the rows of a store that a release with these sessions holds.
+/// Returns a filter of the rows of a store that a release of these sessions has.
 urban_nav_store::RowFilter releaseRows(const std::vector<KeptSession>& sessions,
                                        const urban_nav_store::SessionId& first);
 

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 Workplace::Workplace(const std::string& out) : out_(out), store_(out + ".joining"), folder_(out + ".joining.files") {
   const fs::path parent = fs::absolute(out).parent_path();
   if (!fs::is_directory(parent))
-    throw urban_nav_core::UserError(out, "there is no folder " + parent.string(), "an existing folder");
+    throw urban_nav_core::UserError(out, "missing folder " + parent.string(), "an existing folder");
   clear();
   fs::create_directory(folder_);
 }

@@ -5,8 +5,8 @@
 
 namespace urban_nav {
 
-/// An unfinished store next to the one that it will be, and a folder for files that stages write. Both vanish unless
-/// the store is published.
+/// A temporary store next to the final one, and a folder for files of the stages. Both are removed unless the store is
+/// published.
 class Workplace {
  public:
   /// Throws UserError if the folder of `out` does not exist.
@@ -17,7 +17,7 @@ class Workplace {
 
   const std::string& store() const { return store_; }
   const std::string& folder() const { return folder_; }
-  /// Copies the unfinished store, closed by now, to `out`, which appears whole.
+  /// Copies the temporary store atomically to `out`. Requires that it is closed.
   void publish();
 
  private:

@@ -25,7 +25,7 @@ struct BagCheckpoint {
 };
 
 std::string packBagCheckpoint(BagCheckpoint checkpoint);
-/// Reads this version and version 1, which knew visual odometry alone. Throws DataError for anything else.
+/// Reads this version and version 1, which had only visual odometry. Throws DataError for other bytes.
 BagCheckpoint unpackBagCheckpoint(std::string_view bytes);
 
 /// Returns how many of a session's bags the checkpoint covers: those that are its last ones, or none if the first

@@ -18,7 +18,7 @@ std::array<double, 7> toVertexValues(const Pose& pose) {
   return {pose.t().x(), pose.t().y(), pose.t().z(), pose.q().x(), pose.q().y(), pose.q().z(), pose.q().w()};
 }
 
-/// A pose per frame and an edge per step; information in g2o's own tangent.
+/// Returns a pose per frame and an edge per step; information in the tangent of g2o.
 G2oGraph makeChainGraph(const SessionOdometry& run) {
   G2oGraph graph;
   for (std::size_t i = 0; i < run.settled.size(); ++i) {

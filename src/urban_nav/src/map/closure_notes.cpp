@@ -10,11 +10,11 @@ std::vector<std::string> closureNotes(const MapOptions& options, bool measured) 
   const bool has_places = measured && isRequested(options, "places");
   if (!options.closures.empty())
     return {"closures: " + options.closures +
-            (measured ? "; the stage loops measures their transforms, those in the file are not used"
+            (measured ? "; the stage loops measures their transforms, those in the file are ignored"
                       : ", with the transforms in the file (no stage loops)") +
-            (has_places ? "; and those that places proposes" : "")};
-  if (has_places) return {"closures: those that places proposes"};
-  if (options.store.empty()) return {"closures: none (--closures FILE); the map is that of odometry"};
+            (has_places ? "; and those proposed by places" : "")};
+  if (has_places) return {"closures: those proposed by places"};
+  if (options.store.empty()) return {"closures: none (--closures FILE); the map follows odometry"};
   urban_nav_store::Store store = urban_nav_store::openForReading(options.store);
   if (holdsClosures(store)) return {"closures: those of " + options.store};
   return {};

@@ -14,7 +14,7 @@ using urban_nav_core::MetricClosure;
 
 namespace {
 
-// Of a transform whose file has no sigma: five times what loop closure by stereo reaches (paper, section 4.1).
+// Of a transform without sigma in its file: five times that of loop closure by stereo (paper, section 4.1).
 constexpr double kUnknownSigmaM = 0.25, kUnknownSigmaRad = 0.05;
 
 }  // namespace

@@ -36,8 +36,8 @@ struct SessionEvaluations {
   std::optional<Evaluation> map;       ///< of the poses that are written
 };
 
-/// What the stages of one run share: its options, its sessions, its store, and the results that earlier stages hand to
-/// later ones. Not thread-safe.
+/// Shared data of the stages of a run: options, sessions, store, and results passed from earlier to later stages. Not
+/// thread-safe.
 ///
 /// Vectors "over all sessions" hold the sessions in the order of their numbers: the previous ones first, then those of
 /// this run; all of them in the order of their start where the run joins them.
@@ -49,7 +49,7 @@ struct MapContext {
   urban_nav_store::Store* store = nullptr;  ///< session.db of the run; set before the first session
   std::vector<MapSession> sessions;
   PreviousSessions previous;       ///< of the store given by --store, if a stage uses them
-  bool joins = false;              ///< places of the previous sessions are recognised again, closures measured again
+  bool joins = false;              ///< recognises places and measures closures of previous sessions again
   std::vector<std::string> names;  ///< over all sessions, as closures.csv names them
 
   std::vector<urban_nav_core::MetricClosure> closures;  ///< candidates, then with transforms; those of previous runs
@@ -61,7 +61,7 @@ struct MapContext {
       stereo_only;                              ///< over all sessions, relaxed without ICP; empty: no difference
   std::vector<SessionEvaluations> evaluations;  ///< over all sessions; empty until all stages have run
   std::vector<std::size_t> numbers;  ///< over all sessions, of those of this run; empty: they follow the previous ones
-  /// Over all sessions: part of a release, whose places are known and whose poses stay. Empty: none is.
+  /// Over all sessions: part of a release, whose places are known and whose poses are fixed. Empty: none.
   std::vector<bool> is_frozen;
   /// Closures that pieces of a join have measured, by their poses: not measured again.
   std::map<std::pair<urban_nav_core::PoseRef, urban_nav_core::PoseRef>, urban_nav_core::MetricClosure> measured;
@@ -70,13 +70,13 @@ struct MapContext {
   std::size_t number(std::size_t session) const;
   /// Returns whether the session with this number is one of the previous ones.
   bool isPrevious(std::size_t number) const;
-  /// Returns how many sessions, the first ones, keep the files that an earlier run has written.
+  /// Returns the number of first sessions whose files of an earlier run are kept.
   std::size_t sessionsKept() const { return joins ? 0 : previous.runs.size(); }
   /// Return odometry and store keys over all sessions.
   std::vector<const SessionOdometry*> runs() const;
   std::vector<urban_nav_store::SessionId> ids() const;
-  /// Returns the camera of the last session that has one; that of a stored session is the one with which it was read.
-  /// Returns nullopt if none has images.
+  /// Returns the camera of the last session with images; for a stored session, the camera of the run that stored it.
+  /// nullopt if no session has images.
   std::optional<urban_nav_registration::MountedCamera> lastCamera() const;
 };
 

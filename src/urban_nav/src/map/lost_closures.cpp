@@ -35,8 +35,8 @@ std::string lostClosuresWarning(urban_nav_store::Store& store, const ClosurePose
                                   [&](const ClosurePoses::value_type& closure) { return now.count(closure) == 0; });
   if (lost == 0) return {};
   return std::to_string(lost) + " of " + std::to_string(before.size()) +
-         " closures that the stores had accepted are not in the joined map: places does not propose them where all "
-         "sessions are compared in the order of time (they were given by --closures, or found in another order)";
+         " accepted closures of the stores are not in the joined map: places does not propose them when all sessions "
+         "are compared in the order of time (they were given by --closures, or found in another order)";
 }
 
 }  // namespace urban_nav

@@ -5,16 +5,16 @@
 
 namespace urban_nav {
 
-/// The map of a store before its first edit, for stores whose map is not the one that this program makes of their
-/// measurements: of a robot that relaxed as it drove, of another version, or merged from maps that were made apart.
+/// The map of a store before its first edit, for stores whose map this program would not reproduce from their
+/// measurements: relaxed live on a robot, written by another version, or merged from separate maps.
 
 /// Keeps the poses, verdicts and graph.g2o of all sessions. Does not commit.
 void keepBase(urban_nav_store::Store& store);
 /// Returns whether a map is kept.
 bool holdsBase(urban_nav_store::Store& store);
-/// Brings the kept map back. Requires holdsBase(). Does not commit. Throws DataError if it is damaged.
+/// Restores the kept map. Requires holdsBase(). Does not commit. Throws DataError if it is damaged.
 void restoreBase(urban_nav_store::Store& store);
-/// Forgets it: another relaxation has taken its place.
+/// Removes the kept map, after another relaxation.
 void forgetBase(urban_nav_store::Store& store);
 
 }  // namespace urban_nav

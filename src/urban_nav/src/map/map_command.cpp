@@ -24,8 +24,7 @@ std::string mcapPath(const Arguments& arguments) {
   if (!arguments.has("mcap")) return path;
   checkResultPath(path);
   if (arguments.has("localise"))
-    throw urban_nav_core::UserError("--mcap", "has no poses of --localise, which the store does not hold",
-                                    "one of them");
+    throw urban_nav_core::UserError("--mcap", "--localise writes no poses to the store", "one of the two options");
   return path;
 }
 
@@ -70,14 +69,13 @@ std::string stagesSentence(const AllStages& stages) {
 }
 
 Option calibrateOption() {
-  return {
-      "--calibrate",
-      "",
-      "estimate delay and mounting of the lasers against the trajectory; adopted where places that were left out of "
-      "the estimate agree better, and reported in every case",
-      false,
-      false,
-      {}};
+  return {"--calibrate",
+          "",
+          "estimate delay and mounting of the lasers against the trajectory; adopted if held-out places "
+          "the estimate agree better, and reported in every case",
+          false,
+          false,
+          {}};
 }
 
 Option mcapOption() {
@@ -93,8 +91,8 @@ Option mcapOption() {
 Option odometryOption() {
   return {"--odometry",
           "SOURCE",
-          "auto, stereo, laser or both: what the path comes from (default auto: both where there are images and sweeps "
-          "of a 3D LiDAR, else what there is)",
+          "auto, stereo, laser or both: source of the path (default auto: both if there are images and sweeps "
+          "of a 3D LiDAR, else the one there is)",
           false,
           false,
           {}};
@@ -103,14 +101,14 @@ Option odometryOption() {
 std::vector<Option> mapOptions(const AllStages& stages) {
   return {
       {"INPUT", "", "bags, or folders of KITTI, EuRoC or New College", true, true, {}},
-      {"-o,--out", "DIR", "folder to write into (made if need be)", true, false, {}},
-      {"--overwrite", "", "replaces the map of other inputs in DIR (otherwise it is refused)", false, false, {}},
+      {"-o,--out", "DIR", "folder to write into (created if missing)", true, false, {}},
+      {"--overwrite", "", "replace the map of other inputs in DIR (otherwise an error)", false, false, {}},
       {"--stages", "LIST", stagesSentence(stages), false, true, {}},
       odometryOption(),
       {"--closures",
        "FILE",
-       "closures.csv: pairs of stamps at one place; the stage loops measures their transforms (without it, those in "
-       "the file are used)",
+       "closures.csv: pairs of stamps at the same place; the stage loops measures their transforms (without this "
+       "stage, those in the file are used)",
        false,
        false,
        {}},
@@ -138,19 +136,19 @@ std::vector<Option> mapOptions(const AllStages& stages) {
        {}},
       {"--localise",
        "FILE",
-       "localise the inputs in the map of this store or release, which is only read: localisation.csv holds poses, and "
-       "whether they are KNOWN",
+       "localise the inputs in the map of this store or release, which is only read: localisation.csv holds poses and "
+       "their status",
        false,
        false,
        {}},
       calibrateOption(),
       {"--strict", "", "exit status 1 if a consistency test fails; all files are written", false, false, {}},
-      {"--truth", "FILE", "trajectory for the report alone (default: what the input has)", false, false, {}},
+      {"--truth", "FILE", "true trajectory, for the report only (default: that of the input)", false, false, {}},
       mcapOption(),
       {"--so-far",
        "SHARE",
-       "share of an unfinished recording that the inputs cover, 0...1: below 1 the report is marked so and refreshes "
-       "itself",
+       "share of an unfinished recording that the inputs cover, 0...1: below 1 the report is marked as incomplete and "
+       "refreshes itself",
        false,
        false,
        {}},
@@ -177,7 +175,8 @@ Command mapCommand(StageFactory make_stages, ResultRecorder record) {
     for (const std::string& warning : parameterWarnings(options.parameters)) console.warn(warning);
     const std::vector<std::string> failed = runMap(options, std::move(stages), console, record);
     if (failed.empty()) return 0;
-    console.warn("consistency tests failed: " + urban_nav_core::joined(failed) + "; section Trust of report.html");
+    console.warn("consistency tests failed: " + urban_nav_core::joined(failed) +
+                 "; see the section Trust of report.html");
     return options.strict ? 1 : 0;
   };
   return command;

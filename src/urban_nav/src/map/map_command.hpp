@@ -11,7 +11,7 @@ namespace urban_nav {
 /// Returns the options of a run of `map` with these arguments. Throws UserError for those that are not allowed.
 MapOptions readMapOptions(const Arguments& arguments, const AllStages& stages);
 
-/// Returns the command map, which runs these stages. `record`: writes what --mcap asks for.
+/// Returns the command map, which runs these stages. `record`: writes the file of --mcap.
 Command mapCommand(StageFactory make_stages, ResultRecorder record = {});
 
 }  // namespace urban_nav

@@ -27,12 +27,12 @@ struct MapOptions {
   /// empty.
   std::optional<double> so_far = std::nullopt;
   std::string store = {};     ///< session store to continue from; empty: none
-  bool overwrite = false;     ///< replaces the run of other inputs that `out` holds
+  bool overwrite = false;     ///< replaces the results of other inputs in `out`
   std::string localise = {};  ///< session store whose map is only read; empty: none
   OdometryOption odometry = OdometryOption::Auto;
   bool calibrate = false;  ///< estimates delay and mounting of the lasers before the map is rendered
   std::string mcap = {};   ///< file for the results as MCAP; empty: none
-  bool strict = false;     ///< a consistency test that fails makes the exit status 1
+  bool strict = false;     ///< exit status 1 if a consistency test fails
 };
 
 /// Returns whether --stages allows a stage: it is listed, or the list is empty.

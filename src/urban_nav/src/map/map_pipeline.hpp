@@ -11,10 +11,10 @@
 
 namespace urban_nav {
 
-/// Runs those of `stages` that the options ask for over the inputs and writes trajectories, closures, report, summary
-/// and the files of each stage into the output folder, and with MapOptions::mcap their results by `record`. Continues
-/// an interrupted run with the same options. Returns the names of the consistency tests that failed. Throws UserError
-/// for bad options, DataError if the inputs are not usable.
+/// Runs the requested `stages` on the inputs and writes trajectories, closures, report, summary and the files of each
+/// stage into the output folder, and with MapOptions::mcap their results by `record`. Continues an interrupted run with
+/// the same options. Returns the names of the consistency tests that failed. Throws UserError for bad options,
+/// DataError if the inputs are not usable.
 std::vector<std::string> runMap(const MapOptions& options, AllStages stages, Console& console,
                                 const ResultRecorder& record = {});
 

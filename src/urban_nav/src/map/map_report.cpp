@@ -32,7 +32,7 @@ std::string inputNames(const std::vector<std::string>& inputs) {
   return listText(names);
 }
 
-/// Returns a word for what the frames of the sessions are.
+/// Returns the noun for the frames of the sessions.
 std::string countedThings(const MapContext& context) {
   bool is_stereo = false, is_laser = false;
   for (const MapSession& session : context.sessions)
@@ -75,7 +75,7 @@ PageTable inputsTable(const MapContext& context) {
   return table;
 }
 
-/// `session`: its number from 1 where there are several, else 0.
+/// Returns the result of a comparison. `session`: its number from 1 if there are several, else 0.
 StageResult evaluationResult(const Evaluation& evaluation, std::size_t session) {
   const std::string of = session > 0 ? " (session " + std::to_string(session) + ")" : "";
   StageResult made;
@@ -105,10 +105,10 @@ std::vector<StageResult> evaluationResults(const MapContext& context) {
 }
 
 Section methodSection(const MapState& state, const std::vector<StageResult>& results) {
-  Section how{"how", "How it was made",
+  Section how{"how", "Inputs and parameters",
               "",    {},
               {},    {inputsTable(state.context), parametersTable(state.context.options.parameters)}};
-  PageTable warnings{"Warnings", {"what was wrong with the data"}, {}, ""};
+  PageTable warnings{"Warnings", {"defects of the data"}, {}, ""};
   for (const StageResult& result : results)
     for (const std::string& fault : result.data_faults) warnings.rows.push_back({fault});
   if (!warnings.rows.empty()) how.tables.insert(how.tables.begin(), warnings);
@@ -119,7 +119,7 @@ std::string subtitle(const std::vector<StageResult>& results) {
   std::vector<std::string> methods;
   for (const StageResult& result : results)
     if (!result.method.empty()) methods.push_back(result.method);
-  return listText(methods) + ": where the robot went, and how far to trust it.";
+  return listText(methods) + ": the path of the robot and its accuracy.";
 }
 
 }  // namespace
@@ -154,10 +154,11 @@ Page mapPage(const MapState& state, const std::vector<StageResult>& results) {
   std::stable_sort(sections.begin(), sections.end(),
                    [](const PlacedSection& a, const PlacedSection& b) { return a.place < b.place; });
   for (PlacedSection& placed : sections) page.sections.push_back(std::move(placed.section));
-  page.footer = "urban_nav map, " + urban_nav_core::formatNumber(state.usage.wallSeconds(), 3) + " s of time, " +
-                urban_nav_core::formatNumber(state.usage.cpuSeconds(), 3) +
-                " s of processor. Poses and figures: trajectory.tum, covariance.csv and the tables of the stages in "
-                "the folder of this file.";
+  page.footer =
+      "urban_nav map, " + urban_nav_core::formatNumber(state.usage.wallSeconds(), 3) + " s wall time, " +
+      urban_nav_core::formatNumber(state.usage.cpuSeconds(), 3) +
+      " s processor time. Poses and tables: trajectory.tum, covariance.csv and the tables of the stages in the "
+      "folder of this file.";
   return page;
 }
 

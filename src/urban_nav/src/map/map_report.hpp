@@ -22,7 +22,7 @@ struct MapState {
 /// Returns the results of all stages, in their order.
 std::vector<StageResult> stageResults(const MapState& state);
 
-/// Returns the page of report.html: what the stages have made, with a comparison with ground truth if there is one.
+/// Returns the page of report.html: results of the stages, compared with ground truth if there is any.
 Page mapPage(const MapState& state, const std::vector<StageResult>& results);
 
 /// Returns summary.json: figures of the run, and the object of each stage under its key.

@@ -10,7 +10,7 @@ namespace urban_nav {
 
 struct MapOptions;
 
-/// Sensors that the odometry of a session comes from.
+/// Sensors of the odometry of a session.
 enum class OdometrySource { Stereo, Laser, Both };
 /// Returns "stereo", "laser" or "both".
 const char* toString(OdometrySource source);
@@ -19,7 +19,7 @@ inline bool usesLaser(OdometrySource source) { return source != OdometrySource::
 
 /// Value of --odometry.
 enum class OdometryOption {
-  Auto,  ///< both where a session has images and sweeps of a 3D LiDAR, else the one that it has
+  Auto,  ///< both if a session has images and sweeps of a 3D LiDAR, else the one it has
   Stereo,
   Laser,
   Both
@@ -27,8 +27,8 @@ enum class OdometryOption {
 /// Parses "auto", "stereo", "laser" or "both". Throws UserError with the allowed words.
 OdometryOption parseOdometryOption(const std::string& word);
 
-/// Returns the source of a session's odometry. Throws DataError that names the missing input if --odometry asks for one
-/// that the session has no data for.
+/// Returns the source of the odometry of a session. Throws DataError naming the missing input if the session has no
+/// data for --odometry.
 OdometrySource chooseOdometry(const MapOptions& options, const urban_nav_input::SourceInfo& info);
 
 }  // namespace urban_nav

@@ -18,12 +18,11 @@ class OdometryStoreWriter {
                       std::string stream)
       : store_(store), id_(std::move(id)), source_(std::move(source)), stream_(std::move(stream)) {}
 
-  /// Writes what the run has gained since the last call. Does not commit.
+  /// Writes the frames and steps added since the last call. Does not commit.
   void write(const SessionOdometry& run);
-  /// Writes nodes and edges alone, in place of those of another odometry with the same times, whose edges have the
-  /// source `replaced`.
+  /// Writes only nodes and edges, replacing those of another odometry with the same times and edge source `replaced`.
   void replaceNodes(const SessionOdometry& run, const std::string& replaced);
-  /// Writes all poses and steps of the run, in place of those of earlier calls. Does not commit.
+  /// Writes all poses and steps of the run, replacing those of earlier calls. Does not commit.
   void rewrite(const SessionOdometry& run);
   /// Writes the specific forces of a finished run.
   void writeForces(const SessionOdometry& run);

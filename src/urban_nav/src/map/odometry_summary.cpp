@@ -32,7 +32,7 @@ void addConstants(const OdometryFusion& fusion, Json& odometry) {
   odometry["lidar_mounting_deg_sigma"] = sigmas;
 }
 
-/// Returns the fusion that knows stereo's scale best; null if no session has both sources.
+/// Returns the fusion with the smallest standard deviation of the stereo scale; null if no session has both sources.
 const OdometryFusion* bestFusion(const MapContext& context) {
   const OdometryFusion* best = nullptr;
   for (const MapSession& session : context.sessions) {

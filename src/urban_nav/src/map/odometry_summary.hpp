@@ -9,7 +9,7 @@
 
 namespace urban_nav {
 
-/// Steps of odometry by what measured them.
+/// Number of odometry steps by sensor.
 struct StepCounts {
   std::int64_t stereo = 0, laser = 0, both = 0, none = 0;
 };
@@ -19,8 +19,8 @@ void addSteps(const SessionOdometry& run, StepCounts& counts);
 /// Returns the constant of this name, null if it is not among them.
 const urban_nav_core::SharedConstant* findConstant(const OdometryFusion& fusion, const std::string& name);
 
-/// Returns the object "odometry" of summary.json: the source, how many steps each one has measured, and the constants
-/// that both sources share, of the session that knows the scale best.
+/// Returns the object "odometry" of summary.json: the source, the number of steps by sensor, and the common constants
+/// of both sources from the session with the most accurate scale.
 Json odometryJson(const MapContext& context);
 
 }  // namespace urban_nav

@@ -13,8 +13,7 @@ namespace {
 
 constexpr const char* kClosuresFile = "closures.csv";
 
-/// Returns the session, from 0, whose file of this pattern ("landmarks#.ply") has a name; nullopt if it is no such
-/// name.
+/// Returns the session, from 0, for a file name of this pattern ("landmarks#.ply"); nullopt if it does not match.
 std::optional<std::size_t> matchSession(const std::string& name, const std::string& pattern) {
   const std::size_t at = pattern.find('#');
   if (at == std::string::npos) return name == pattern ? std::optional<std::size_t>(0) : std::nullopt;
@@ -39,10 +38,10 @@ bool usesClosures(const StageList& stages) {
   return std::any_of(stages.begin(), stages.end(), [](const Stage* stage) { return stage->describe().uses_closures; });
 }
 
-/// Names of files that this run may leave in the folder.
+/// Names of files that this run may keep in the folder.
 struct OwnedNames {
-  std::vector<std::string> by_run;       ///< of its stages, and those all runs share
-  std::vector<std::string> by_left_out;  ///< of the stages that it leaves out
+  std::vector<std::string> by_run;       ///< of its stages, and those common to all runs
+  std::vector<std::string> by_left_out;  ///< of the stages that do not run
 };
 
 OwnedNames ownedNames(const std::vector<std::unique_ptr<Stage>>& all, const StageList& selected) {

@@ -8,10 +8,9 @@
 
 namespace urban_nav {
 
-/// Writes the files of a run besides report and summary: trajectories and closures, which the stages hand to each
-/// other, and the files of each stage. Removes files that an earlier run has left in the folder and this one does not
-/// make; those of previous sessions stay if this run leaves them as they are. `all`: also the stages that this run
-/// leaves out.
+/// Writes the files of a run except report and summary: trajectories, closures and the files of each stage. Removes
+/// files of an earlier run that this run does not write; keeps those of previous sessions that it does not change.
+/// `all`: all stages, including those that do not run.
 void writeOutputFiles(const OutputFolder& folder, const MapContext& context,
                       const std::vector<std::unique_ptr<Stage>>& all, const StageList& selected,
                       const std::vector<StageResult>& results);

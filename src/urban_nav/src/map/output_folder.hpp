@@ -6,11 +6,10 @@
 
 namespace urban_nav {
 
-/// The folder a run writes into. Each file appears whole or not at all: it is written beside its place, flushed,
-/// renamed.
+/// Output folder of a run. Files appear atomically: each is written under a temporary name, flushed and renamed.
 class OutputFolder {
  public:
-  /// Makes the folder if it does not exist. Throws UserError if that fails.
+  /// Creates the folder if it does not exist. Throws UserError if that fails.
   explicit OutputFolder(std::string path);
 
   const std::string& path() const { return path_; }
@@ -18,7 +17,7 @@ class OutputFolder {
   /// Returns the names of its files, sorted.
   std::vector<std::string> list() const;
   void write(const std::string& name, const std::string& content) const;
-  /// Removes a file that this run does not make; does nothing if there is none.
+  /// Removes a file that this run does not write, if it exists.
   void remove(const std::string& name) const;
 
  private:

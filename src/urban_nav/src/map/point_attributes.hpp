@@ -12,7 +12,7 @@
 
 namespace urban_nav {
 
-/// What a stage adds to each point of a map when it is exported. Points are numbered in the order of the map's tiles.
+/// Attributes that a stage adds to each point of an exported map. Points are numbered in the order of the map tiles.
 struct PointAttributes {
   urban_nav_core::PlyLayout ply;  ///< properties after those of the map, and comments of the header
   urban_nav_core::LasAttribute las;

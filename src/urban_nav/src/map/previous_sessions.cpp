@@ -19,7 +19,8 @@ using urban_nav_store::Store;
 
 namespace {
 
-/// The steps of a chain by their ends: those of visual or laser odometry, or of both, where there are several.
+/// Returns the steps of a chain by their ends: fused ones if there are several sources, else of visual or laser
+/// odometry.
 std::map<StampNs, Edge> collectSteps(Store& store, const SessionId& id) {
   std::map<StampNs, Edge> steps;
   store.graph().forEachEdge(id, [&](const Edge& edge) {

@@ -9,17 +9,17 @@
 
 namespace urban_nav {
 
-/// Sessions that earlier runs have left in a store, as far as later stages need them.
+/// Sessions of earlier runs in a store, with the data that later stages need.
 struct PreviousSessions {
   std::vector<urban_nav_store::SessionId> ids;
   std::vector<std::string> names;  ///< as closures.csv names them
-  /// Odometry chains and covariances with bit-exact numbers, rows of dropped frames, specific forces and the camera's
-  /// extrinsics; other members are empty.
+  /// Bit-exact odometry chains and covariances, rows of dropped frames, specific forces and extrinsics of the camera;
+  /// other members are empty.
   std::vector<SessionOdometry> runs;
   std::int64_t revision = 0;  ///< highest revision of their anchors
 };
 
-/// Returns all sessions but those in `without`, in the order of their start. Throws the errors of urban_nav_store.
+/// Returns all sessions except those in `without`, in the order of their start. Throws the errors of urban_nav_store.
 PreviousSessions readPreviousSessions(urban_nav_store::Store& store,
                                       const std::vector<urban_nav_store::SessionId>& without);
 

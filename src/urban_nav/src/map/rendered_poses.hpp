@@ -5,13 +5,13 @@
 
 namespace urban_nav {
 
-// An edit moves poses and renders nothing: the chunks of a map of points stay where the poses were when they were
-// rendered. What a store notes of that is a digest of those poses.
+// An edit moves poses without rendering: the chunks of a point map remain at the poses of their rendering. The store
+// keeps a digest of those poses.
 
-/// Notes that the chunks of a session lie along the poses that the store holds, unless it is noted already where they
-/// lie. Does not commit.
+/// Records the stored poses as those at which the chunks of a session were rendered, unless a digest is recorded
+/// already. Does not commit.
 void noteRenderedPoses(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
-/// Declares that the chunks of a session lie where its poses are. Does not commit.
+/// Removes the digest: the chunks of a session agree with its poses. Does not commit.
 void forgetRenderedPoses(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
 /// Returns whether the poses of a session have changed since its chunks were rendered.
 bool isRenderingOutdated(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::chrono::seconds kCommitPeriod{1};
 
-/// Returns the options of a run that its results depend on, values one per line; those that were not given are absent.
+/// Returns the given options that affect the results of a run, one value per line.
 std::map<std::string, std::string> givenOptions(const MapOptions& options) {
   std::map<std::string, std::string> given;
   const auto add = [&](const char* name, const std::string& value) {
@@ -145,7 +145,7 @@ RunCheckpoint::PruneResult RunCheckpoint::pruneSessions(bool in_place) {
                                     [&](const MapSession& session) { return session.id == known.id; });
     const bool ours = place != sessions_.end();
     const auto at = static_cast<std::size_t>(place - sessions_.begin());
-    // Complete, or not begun by a run of map: a session recorded live is as complete as it will ever be.
+    // Complete, or not begun by a run of map: a session recorded live counts as complete.
     if (!ours && (in_place ? known.complete || storedFingerprint(*store_, known.id).empty()
                            : std::find(stay.begin(), stay.end(), known.id) != stay.end()))
       continue;

@@ -11,46 +11,46 @@
 
 namespace urban_nav {
 
-/// Stores the progress of a run of `map` in session.db of its output folder, committed about once a second, and finds
-/// there what an interrupted run has finished.
+/// Stores the progress of a run of `map` in session.db of its output folder, committed about once a second, and reads
+/// the progress of an interrupted run from there.
 ///
 /// A session that an earlier run has finished is restored from the store, bit-exactly, if its fingerprint
-/// (run_fingerprint.hpp) is the same; anything else is removed and made again, and the console reports the difference.
-/// A run that ends leaves no states: the next one in its folder starts from the beginning.
+/// (run_fingerprint.hpp) is the same; other sessions are removed and recomputed, and the difference is reported on the
+/// console. A completed run leaves no states: the next one in its folder starts from the beginning.
 ///
-/// If --store names a store to continue from, its sessions are in session.db from the start, and stay. One that is
-/// mapped again is replaced; one whose recording the bags continue is continued after its last known bag
-/// (bag_checkpoint.hpp). That checkpoint stays in the store for the session that ends last.
+/// With --store, the sessions of that store are in session.db from the start. A session that is mapped again is
+/// replaced; one whose recording continues in the bags is continued after its last known bag (bag_checkpoint.hpp). The
+/// checkpoint of the session that ends last is kept in the store.
 class RunCheckpoint {
  public:
   /// Sets id and `continued` of each session, and the name of continued ones. `sessions` must outlive the object.
   RunCheckpoint(const MapOptions& options, const StageList& stages, std::vector<MapSession>& sessions, std::string path,
                 Console& console);
 
-  /// Where an unfinished session continues: after `bags` of its bags.
+  /// Point from which an unfinished session continues: after `bags` of its bags.
   struct ResumePoint {
     BagCheckpoint checkpoint;
     std::size_t bags = 0;
   };
   const std::optional<ResumePoint>& resumePoint(std::size_t session) const { return plans_[session].resume_point; }
-  /// Makes it a session of its own, if resuming has failed.
+  /// Makes it a new session, if resuming has failed.
   void startNewSession(std::size_t session);
 
-  /// Returns the states with which an earlier run finished the session (SessionPass::finished()); empty if it is not
-  /// finished.
+  /// Returns the states of the session from an earlier run that finished it (SessionPass::finished()); empty if
+  /// unfinished.
   std::vector<BagCheckpoint::StageState> finishedStates(std::size_t session);
-  /// Starts writing a session from its beginning, or from its resume point. The other calls are about this session.
+  /// Starts writing a session from its beginning, or from its resume point. Other calls refer to this session.
   void begin(std::size_t session);
   void resume(std::size_t session);
   /// Writes scans, in the frames of the lasers.
   void writeScans(const std::vector<urban_nav_input::LaserInput>& scans);
-  /// Writes and commits the checkpoint at the end of a bag; replaces that of the bag before.
+  /// Writes and commits the checkpoint at the end of a bag; replaces that of the previous bag.
   void saveBagEnd(std::vector<BagCheckpoint::StageState> states, const urban_nav_input::BagEnd& end);
   bool isCommitDue() const;
   void commit();
   /// Marks the session as complete, with the states from which it can be restored. Commits.
   void finishSession(const std::vector<BagCheckpoint::StageState>& states);
-  /// Ends a run whose files are written: removes all states that are no longer needed, and closes the store.
+  /// Ends a run after its files are written: removes all unneeded states and closes the store.
   void endRun();
 
   urban_nav_store::Store& store() { return *store_; }
@@ -59,7 +59,7 @@ class RunCheckpoint {
   using Clock = std::chrono::steady_clock;
   using SessionId = urban_nav_store::SessionId;
 
-  /// What is known of a session before it is read.
+  /// Identity and resume point of a session, determined before reading.
   struct SessionPlan {
     SessionId own_id;  ///< unless it continues another one
     RunFingerprint fingerprint;
@@ -72,7 +72,7 @@ class RunCheckpoint {
     std::size_t finished = 0;  ///< sessions that are restored
     std::size_t begun = 0;     ///< sessions that are resumed after a bag
     bool interrupted = false;
-    std::string difference;  ///< why sessions were removed, for the user
+    std::string difference;  ///< reason why sessions were removed, for the user
   };
 
   /// Matches sessions to those of --store.
@@ -85,7 +85,7 @@ class RunCheckpoint {
   bool isFinished(std::size_t session);
   /// Returns the checkpoint of a stored session if the bags of this one follow it.
   std::optional<ResumePoint> readResumePoint(urban_nav_store::Store& store, const SessionId& id, std::size_t session);
-  /// Returns the checkpoint if, besides, program, options and parameters are the same.
+  /// Like readResumePoint(), but only if program, options and parameters are the same.
   std::optional<ResumePoint> findResumePoint(urban_nav_store::Store& store, const SessionId& id, std::size_t session);
   std::string configurationDifferences(urban_nav_store::Store& store, const SessionId& id, std::size_t session) const;
   void writeSession(std::size_t session);

@@ -24,16 +24,16 @@ namespace {
 
 constexpr std::streamoff kPiece = 1 << 16;  // bytes of a beginning and of an end
 constexpr std::size_t kSampledFiles = 16;   // files of a folder
-constexpr int kDeepest = 4;                 // folders within a folder: no input has more, and links may go in a circle
+constexpr int kDeepest = 4;                 // nesting of folders: inputs have no more, and links may be cyclic
 
 struct InputFile {
-  std::string name;  ///< within the folder; of a bag: its own
+  std::string name;  ///< relative to the folder; of a bag: its name
   std::string path;
   std::uintmax_t size = 0;
   std::int64_t changed = 0;
 };
 
-/// Ground truth never reaches an estimate; its presence must not distinguish two runs.
+/// Returns whether a file is ground truth, which does not affect estimates and is ignored by the fingerprint.
 bool isTruth(const fs::path& path) {
   const std::string name = path.filename().string();
   return name == "poses.txt" || name == "state_groundtruth_estimate0";
@@ -101,7 +101,7 @@ std::string computeDigest(const std::vector<std::string>& inputs, const std::str
 int addObject(dl_phdr_info* object, std::size_t, void* bytes) {
   const std::string path = object->dlpi_name[0] == '\0' ? "/proc/self/exe" : object->dlpi_name;
   std::error_code error;
-  if (!fs::exists(path, error)) return 0;  // the kernel's own
+  if (!fs::exists(path, error)) return 0;  // of the kernel, such as the vdso
   const InputFile file = describeFile(fs::canonical(path, error), "");
   appendText(*static_cast<std::string*>(bytes), file.path);
   appendInteger(*static_cast<std::string*>(bytes), file.size);
@@ -109,8 +109,7 @@ int addObject(dl_phdr_info* object, std::size_t, void* bytes) {
   return 0;
 }
 
-/// Returns a digest of the program and its libraries, those that are loaded when it is called first: OpenCV and TBB
-/// load others while they work.
+/// Returns a digest of the program and the libraries loaded at the first call; OpenCV and TBB load others later.
 const std::string& digestOfProgram() {
   static const std::string digest = [] {
     std::string bytes;
@@ -171,7 +170,7 @@ std::string digestOfStore(const MapOptions& options) {
 
 namespace {
 
-/// Returns a digest, and the part of the bags that a session consists of, if it is not all of them.
+/// Appends to a digest the part of the bags that a session consists of, if not all of them.
 std::string appendPart(std::string digest, const urban_nav_input::ReceiptRange& part) {
   if (part == urban_nav_input::ReceiptRange{}) return digest;
   return digest + ":" + std::to_string(part.begin) + "-" + std::to_string(part.end);

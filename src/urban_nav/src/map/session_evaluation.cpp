@@ -19,7 +19,7 @@ std::vector<urban_nav_core::StampNs> stamps(const SessionOdometry& run) {
   return result;
 }
 
-/// Returns a row per smoothed frame. `relaxed` replaces the covariances of odometry as far as it goes.
+/// Returns a row per smoothed frame. `relaxed` replaces the first covariances of odometry.
 std::vector<urban_nav_core::CovarianceRow> covarianceRows(const SessionOdometry& run, const Covariances& relaxed) {
   std::vector<urban_nav_core::CovarianceRow> rows;
   for (const SmoothedFrame& settled : run.settled)
@@ -60,7 +60,7 @@ std::vector<SessionEvaluations> evaluateSessions(const MapContext& context) {
       if (context.relaxed)
         result.odometry = compare(context, *session.odometry, *truth, smoothedTrajectory(*session.odometry), {});
       context.console.info("truth: " + truth->path +
-                           (context.options.truth.empty() ? " (found; it is used for the report alone)" : ""));
+                           (context.options.truth.empty() ? " (found; used for the report only)" : ""));
     } catch (const urban_nav_core::Error& error) {
       context.console.warn(std::string("the truth is left out of the report: ") + error.what());
     }

@@ -7,8 +7,8 @@
 
 namespace urban_nav {
 
-/// Compares the trajectories of a run, which must be final, with ground truth: that of --truth, or that found in the
-/// inputs. Unreadable ground truth costs the comparison, not the map: it is reported as a warning.
+/// Compares the final trajectories of a run with ground truth: that of --truth, or that found in the inputs. Unreadable
+/// ground truth is reported as a warning and not compared.
 std::vector<SessionEvaluations> evaluateSessions(const MapContext& context);
 
 }  // namespace urban_nav

@@ -7,7 +7,7 @@
 
 namespace urban_nav {
 
-/// Stores the GPS fixes of a session; a second call changes nothing. Bags without any, and folders, are fine.
+/// Stores the GPS fixes of a session, once. No effect for bags without fixes and for folders.
 void storeFixes(MapContext& context, std::size_t session);
 
 }  // namespace urban_nav

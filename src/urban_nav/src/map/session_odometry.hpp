@@ -19,14 +19,14 @@
 
 namespace urban_nav {
 
-/// Odometry of one frame when it came.
+/// Odometry of one frame at its processing time.
 struct OdometryFrame {
   std::int64_t frame = 0;  ///< counts frames from 0, dropped ones included
   urban_nav_core::StampNs stamp = 0;
   bool accepted = true;  ///< false: dropped because of its stamp
   urban_nav_core::Status status;
   urban_nav_core::Pose T_odom_base;            ///< filtered, as live odometry publishes it
-  urban_nav_core::FrameMeasurements compared;  ///< with other measurements, by visual odometry
+  urban_nav_core::FrameMeasurements compared;  ///< comparison with other measurements, by visual odometry
 };
 
 /// Odometry of one frame as files and later stages use it.
@@ -35,7 +35,7 @@ struct SmoothedFrame {
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::PoseWithCovariance T_odom_base;  ///< covariance: of T_first_base in the axes of the first pose
   urban_nav_core::RelativePose from_previous;      ///< from == to for the first frame
-  urban_nav_core::Status status;                   ///< as it was when the frame came
+  urban_nav_core::Status status;                   ///< at the processing time of the frame
 };
 
 /// Result of comparing visual with laser odometry (FusedOdometry).
@@ -46,7 +46,7 @@ struct OdometryFusion {
   double spread = 1.0;
 };
 
-/// Odometry of one session, whichever sensor it comes from.
+/// Odometry of one session, from any sensor.
 struct SessionOdometry {
   std::string input;
   OdometrySource source = OdometrySource::Stereo;
@@ -56,7 +56,7 @@ struct SessionOdometry {
   std::optional<OdometryFusion> fusion;              ///< result of the comparison, if both sources are used
   std::vector<OdometryFrame> frames;                 ///< one per stereo frame, or per sweep by laser
   std::vector<SmoothedFrame> settled;  ///< smoothed poses, one per accepted frame that has left the window
-  std::string cameras;                 ///< describeCameras() of a session that the store holds; empty: of `camera`
+  std::string cameras;                 ///< describeCameras() of a stored session; empty: of `camera`
   std::vector<urban_nav_core::SpecificForce>
       forces;                       ///< specific forces around smoothed frames; empty without an accelerometer
   std::vector<std::string> faults;  ///< of the data, each with its file or topic; at most kMaxFaults
@@ -64,14 +64,14 @@ struct SessionOdometry {
 };
 constexpr std::size_t kMaxFaults = 100;
 
-/// Returns words for the cameras of a session and where they are mounted (calibrationFingerprint).
+/// Returns a fingerprint of the cameras of a session and their mounting (calibrationFingerprint).
 std::string describeCameras(const SessionOdometry& odometry);
 /// Returns the smoothed poses of base_link in `odom`.
 urban_nav_core::Trajectory smoothedTrajectory(const SessionOdometry& odometry);
-/// Returns the smoothed steps between them.
+/// Returns the smoothed steps between the poses of smoothedTrajectory().
 urban_nav_core::OdometryChain odometryChain(const SessionOdometry& odometry);
 
-/// Turns all poses in `odom`. Steps and covariances, which are in the axes of poses, stay.
+/// Rotates all poses in `odom`. Steps and covariances, which are in the axes of the poses, do not change.
 void turnOdometry(const Eigen::Quaterniond& q_level_odom, SessionOdometry& odometry);
 
 }  // namespace urban_nav

@@ -5,11 +5,11 @@
 
 namespace urban_nav {
 
-/// Stages that make one map of sessions that were mapped apart.
+/// Stages that join separately mapped sessions.
 const std::vector<std::string>& stagesOfJoin();
 
-/// Returns whether a run with these stages joins its sessions to those of --store: it recognises the places of all of
-/// them anew and relaxes them together, as one run over all recordings does.
+/// Returns whether a run with these stages joins its sessions to those of --store: it recognises the places of all
+/// sessions again and relaxes them together, as one run over all recordings.
 bool joinsSessions(const MapOptions& options, const StageList& stages);
 
 /// Numbers the sessions of a run that joins, previous ones and its own, in the order of their start (ties: by id), and

@@ -12,11 +12,11 @@ namespace urban_nav {
 
 /// One item of the reading pass.
 struct PassItem {
-  urban_nav_input::SourceItem& input;  ///< rectified pair, corrected by stage vo, motion, scans, faults of its data
-  const OdometryFrame* odometry = nullptr;   ///< of this frame, set by stage vo, which comes first
+  urban_nav_input::SourceItem& input;       ///< rectified pair, corrected by stage vo, motion, scans, faults of its data
+  const OdometryFrame* odometry = nullptr;   ///< of this frame, set by stage vo, which runs first
 };
 
-/// What the end of an input says about it as a whole.
+/// Data available at the end of an input.
 struct PassEnd {
   std::vector<std::string> faults;
   std::vector<urban_nav_core::SpecificForce> forces;  ///< specific forces; empty without an accelerometer
@@ -33,12 +33,12 @@ class SessionPass {
   virtual void process(const urban_nav_ros::Panorama&) {}
   /// Observes a sweep of a 3D LiDAR, if a stage of the run uses sweeps (Stage::Description). Sweeps come in order of
   /// their references, each before the first pair that was read after it; its reference may be later or earlier than
-  /// the stamp of this pair. In a session without images nothing else comes.
+  /// the stamp of this pair. In a session without images there is no other input.
   virtual void process(const urban_nav_input::SweepInput&) {}
-  /// Writes what is new to the store. Called before each commit, about once a second.
+  /// Writes new results to the store. Called before each commit, about once a second.
   virtual void flush() {}
-  /// Returns the state at the end of a bag, from which a new object continues bit-exactly. Everything up to here must
-  /// be in the store.
+  /// Returns the state at the end of a bag, from which a new object continues bit-exactly. All previous results
+  /// must be in the store.
   virtual std::string checkpoint() { return {}; }
   /// Called once, after the last item. Throws DataError if nothing of the session is usable.
   virtual void finish(const PassEnd&) {}

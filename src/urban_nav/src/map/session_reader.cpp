@@ -11,7 +11,7 @@ namespace urban_nav {
 
 namespace {
 
-constexpr int kMaxReadAhead = 16;        // pairs: decoding is so even that more would only cost memory
+constexpr int kMaxReadAhead = 16;        // pairs; decoding times are even, more would only cost memory
 constexpr double kReadAheadShare = 0.1;  // of memory_mb
 constexpr std::int64_t kJudgedPairs = 12, kLeastJudgedStep = 10;
 

@@ -13,18 +13,18 @@
 
 namespace urban_nav {
 
-/// Returns how many pairs of this camera are read ahead: those that fit into a share of `memory_mb`, within limits.
+/// Returns the number of pairs of this camera to read ahead: as many as fit into a share of `memory_mb`, within limits.
 int readAheadDepth(const CommandParameters& parameters, const urban_nav_core::Pinhole& camera);
 
-/// Reads one session once, with the parts that all stages have in that pass, and stores its progress. Not thread-safe.
+/// Reads one session once, runs the passes of all stages on it, and stores its progress. Not thread-safe.
 class SessionReader {
  public:
-  /// `progress`: called for each frame with the share of the session that is read, 0...1; 0 if it is unknown.
+  /// Called for each frame with the share of the session that has been read, 0...1; 0 if unknown.
   using ProgressCallback = std::function<void(double share)>;
 
   SessionReader(MapContext& context, const StageList& stages, RunCheckpoint& checkpoint, std::size_t session);
 
-  /// Opens source and stages at the session's resume point. If that fails, warns and makes it a session of its own.
+  /// Opens source and stages at the resume point of the session. If that fails, warns and starts a new session.
   void openResumed();
   /// Opens source and stages at the beginning, unless openResumed() has; restores a session that is finished. Sets
   /// MapSession::info. Throws UserError or DataError if the inputs cannot be read.

@@ -27,13 +27,13 @@ class Stage {
     bool listed = true;              ///< selectable by --stages; false: enabled by other options
     bool uses_closures = false;      ///< reads MapContext::closures
     bool uses_previous = false;      ///< reads MapContext::previous
-    std::vector<std::string> files;  ///< names that it may write; "#" stands for fileSuffix()
+    std::vector<std::string> files;  ///< names of its possible files; "#" is fileSuffix()
     bool uses_sweeps = false;        ///< processes sweeps of 3D LiDARs; sessions without images are then read too
   };
   struct Selection {
     bool enabled = false;
-    std::string reason;              ///< if not enabled: why, for the user
-    std::vector<std::string> notes;  ///< if enabled: for the user, before the work starts
+    std::string reason;              ///< if not enabled: the reason, for the user
+    std::vector<std::string> notes;  ///< if enabled: printed before the run
   };
   /// A session whose reading starts. `checkpoint`: state of the pass at the end of a bag; nullopt: from the beginning.
   struct SessionStart {
@@ -56,7 +56,7 @@ class Stage {
   /// Returns the topics of recordings that the stage reads itself; they are not reported as unused.
   virtual std::vector<std::string> topicsRead(const ParameterSet&) const { return {}; }
 
-  /// Decides from the options alone; by default, a stage is enabled if --stages allows it. Throws UserError for options
+  /// Decides from the options only; by default, a stage is enabled if --stages allows it. Throws UserError for options
   /// that contradict each other or name unusable files.
   virtual Selection select(const MapOptions& options) const {
     return {isRequested(options, describe().name), "not in --stages", {}};
@@ -69,12 +69,12 @@ class Stage {
   /// Returns false if the bytes are of another version; the session is then read again.
   virtual bool restoreSession(MapContext&, std::size_t /*session*/, std::string_view /*finished*/) { return true; }
 
-  /// Returns why run() cannot do anything with the sessions of this run: "no laser scans"; empty: nothing is missing.
+  /// Returns the reason why run() has no input in this run: "no laser scans"; empty: nothing is missing.
   virtual std::string missingInput(const MapContext&) const { return {}; }
-  /// Works on all sessions; their store is committed. Hands results to later stages through the context.
+  /// Processes all sessions; their store is committed. Passes results to later stages through the context.
   virtual Messages run(MapContext&) { return {}; }
-  /// Returns what the stage has made so far, for files, report and summary.json. References to the context stay valid
-  /// until the files are written.
+  /// Returns the results so far, for files, report and summary.json. References to the context stay valid until the
+  /// files are written.
   virtual StageResult result(const MapContext&) const { return {}; }
 };
 

@@ -17,7 +17,7 @@ struct OutputFile {
   std::function<std::string()> content;  ///< empty: the file is removed
 };
 
-/// Returns "" for session 0, "_2" for session 1: what names of a session's files have before the extension.
+/// Returns the suffix of the names of the files of a session, before the extension: "" for session 0, "_2" for 1.
 std::string fileSuffix(std::size_t session);
 
 /// Order of sections in the report, lowest first. Sections of equal place keep the order of their stages.
@@ -31,19 +31,18 @@ struct PlacedSection {
   Section section;
 };
 
-/// What a stage has made, as plain data.
+/// Results of a stage, as plain data.
 struct StageResult {
   std::string method;  ///< word of the report's subtitle: "visual odometry"
   std::vector<Tile> tiles;
-  std::optional<Verdict> answer;  ///< whether the map can be trusted: first of all verdicts
+  std::optional<Verdict> answer;  ///< assessment of the map, the first verdict
   std::vector<Verdict> verdicts;
   std::vector<PlacedSection> sections;
-  std::vector<std::string> data_faults;  ///< what is wrong with the data, for the report's table of warnings
-  std::vector<OutputFile> files;         ///< besides the trajectories, which the pipeline writes
-  std::vector<std::string>
-      written_files;  ///< that run() has written into the output folder itself, too large for memory
-  std::vector<std::string> failed_tests;  ///< names of consistency tests
-  std::optional<Json> summary;            ///< object of summary.json under Stage::Description::key
+  std::vector<std::string> data_faults;    ///< defects of the data, for the table of warnings in the report
+  std::vector<OutputFile> files;           ///< except the trajectories, which the pipeline writes
+  std::vector<std::string> written_files;  ///< written into the output folder by run(), since too large for memory
+  std::vector<std::string> failed_tests;   ///< names of consistency tests
+  std::optional<Json> summary;             ///< object of summary.json under Stage::Description::key
 };
 
 }  // namespace urban_nav

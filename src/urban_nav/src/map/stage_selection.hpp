@@ -8,8 +8,8 @@
 
 namespace urban_nav {
 
-/// Returns the stages that a run with these options has, in order, and prints them with their notes and the reasons of
-/// those that are left out. Throws UserError for unknown words of --stages and for contradicting options.
+/// Returns the stages of a run with these options, in order, and prints them with their notes and the reasons of
+/// disabled ones. Throws UserError for unknown words of --stages and for contradicting options.
 StageList selectStages(const std::vector<std::unique_ptr<Stage>>& stages, const MapOptions& options, Console& console);
 
 }  // namespace urban_nav

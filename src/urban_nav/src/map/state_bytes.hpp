@@ -17,8 +17,8 @@ std::string packState(const std::string& name, std::uint32_t version, State& sta
   return urban_nav_core::seal(name, version, archive.take());
 }
 
-/// Sets an object to the state that packState() has returned. Throws DataError naming the state if the bytes are
-/// damaged, or of another version.
+/// Restores an object from the output of packState(). Throws DataError naming the state if the bytes are damaged or of
+/// another version.
 template <typename State>
 void unpackState(const std::string& name, std::uint32_t version, std::string_view bytes, State& state) {
   urban_nav_core::Archive archive(urban_nav_core::unseal(name, version, bytes), "state of " + name);

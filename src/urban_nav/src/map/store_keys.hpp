@@ -13,8 +13,8 @@ constexpr const char* kLoStage = "laser_odometry";
 constexpr const char* kLoStream = "points";
 /// Source of edges of visual and laser odometry fused.
 constexpr const char* kFusionStage = "odometry_fusion";
-/// Properties of a session: options of the run that wrote it as they are given to `map`, one property per option that
-/// was given ("input/option/topic"), values one per line.
+/// Properties of a session: the options of the run of `map` that wrote it, one property per given option
+/// ("input/option/topic"), one value per line.
 constexpr const char* kOptionProperty = "input/option/";
 /// Key of the state at the end of a bag (bag_checkpoint.hpp).
 constexpr const char* kBagStage = "bag";

@@ -14,14 +14,14 @@ namespace urban_nav {
 std::vector<urban_nav_store::SessionId> sessionIds(const MapOptions& options, const std::vector<MapSession>& sessions);
 /// Returns the last part of the path of a session's first input.
 std::string inputName(const urban_nav_input::InputSession& session);
-/// Returns the fingerprint that `map` has stored with a session; empty if another program has stored it.
+/// Returns the fingerprint stored by `map` with a session; empty if another program stored the session.
 RunFingerprint storedFingerprint(urban_nav_store::Store& store, const urban_nav_store::SessionId& id);
 
 struct EdgeWithEvidence {
   urban_nav_store::Edge edge;
   std::optional<std::string> evidence;
 };
-/// Returns all edges of a session but those of its odometry.
+/// Returns all edges of a session except those of its odometry.
 std::vector<EdgeWithEvidence> readClosureEdges(urban_nav_store::Store& store, const urban_nav_store::SessionId& id);
 void writeEdges(urban_nav_store::Store& store, const std::vector<EdgeWithEvidence>& edges);
 

@@ -24,7 +24,7 @@ std::string trajectoryTum(const std::vector<MapMember>& members) {
   return text;
 }
 
-/// Appends a line per stereo frame; a dropped frame repeats the line before it.
+/// Appends a line per stereo frame; a dropped frame repeats the previous line.
 void appendKitti(std::vector<Pose>& lines, const MapMember& member, const Pose& T_first_map) {
   const urban_nav_core::Trajectory& trajectory = member.session->T_map_base;
   std::size_t next = 0;

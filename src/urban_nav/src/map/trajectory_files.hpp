@@ -13,12 +13,12 @@ namespace urban_nav {
 const std::vector<std::string>& trajectoryFileNames();
 
 /// Returns the files with the poses of a run: trajectory.tum, trajectory.kitti, covariance.csv,
-/// relative_covariance.csv. Sessions of one map follow each other in the files of its first session. The poses of
-/// --localise replace those of trajectory.tum alone. `runs`, `trajectories`: one per session; both must outlive the
+/// relative_covariance.csv. Sessions of one map follow each other in the files of its first session. With --localise,
+/// trajectory.tum has the localised poses. `runs`, `trajectories`: one per session; both must outlive the
 /// files.
 ///
-/// A frame that was dropped because of its stamp has a line in trajectory.kitti, with the pose before it, so that lines
-/// and images count alike; the other files are indexed by stamp and leave it out.
+/// A frame that was dropped because of its stamp repeats the previous pose in trajectory.kitti, so that line numbers
+/// are image numbers; the other files, indexed by stamp, omit it.
 std::vector<OutputFile> trajectoryFiles(const std::vector<const SessionOdometry*>& runs,
                                         const std::vector<SessionTrajectory>& trajectories);
 

@@ -25,7 +25,7 @@ constexpr const char* kHead = "ladybug";
 constexpr int kHeadCameras = 5;
 constexpr const char* kDevices = "laser_left, laser_right, panorama, lidar3d, imu, wheels";
 
-/// Returns the device that a topic belongs to; empty for others.
+/// Returns the device of a topic; empty for other topics.
 std::string lagDevice(const std::string& topic) {
   const std::string first = topic.substr(0, topic.find('/'));
   if (first == "ladybug") return "panorama";
@@ -33,7 +33,7 @@ std::string lagDevice(const std::string& topic) {
   return first == urban_nav_ros::topics::kWheelOdometry ? "wheels" : first;
 }
 
-/// Splits at the last colon: words on its two sides.
+/// Splits text at the last colon.
 std::optional<std::pair<std::string, std::string>> atColon(const std::string& text) {
   const std::size_t colon = text.rfind(':');
   if (colon == std::string::npos) return std::nullopt;
@@ -67,7 +67,7 @@ void setRotation(const Eigen::Quaterniond& rotation, geometry_msgs::TransformSta
   transform.transform.rotation.z = q.z();
 }
 
-/// Turns the cameras of the Ladybug about their middle.
+/// Rotates the cameras of the Ladybug about their centre.
 void turnHead(const Eigen::Quaterniond& turn, std::vector<geometry_msgs::TransformStamped>& transforms) {
   std::vector<geometry_msgs::TransformStamped*> cameras;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();

@@ -11,18 +11,18 @@
 
 namespace urban_nav {
 
-/// Constant errors of a robot's calibration that a bag has: stamps of a device that are late, and frames whose rotation
-/// /tf_static states wrongly. Measurements and truth are those of the robot without them.
+/// Constant calibration errors in a bag: delayed stamps of devices, and wrong rotations of frames in /tf_static.
+/// Measurements and truth are those of the robot without errors.
 struct CalibrationErrors {
   std::map<std::string, urban_nav_core::StampNs> lags;  ///< by device: one of calibrationDevices()
-  /// R_true_stated by frame; of "ladybug", the head with all its cameras, about the middle of these in the axes of the
-  /// frame they hang on.
+  /// R_true_stated by frame; of "ladybug", the head with all its cameras, about their centre in the axes of their
+  /// parent frame.
   std::map<std::string, urban_nav_core::Matrix3d> turns;
 
   bool any() const { return !lags.empty() || !turns.empty(); }
   /// Shifts the stamp of a message of a device with a lag.
   void apply(urban_nav_sim::TopicMessage& message) const;
-  /// Turns the frames that are misplaced, about their own axes.
+  /// Rotates the misplaced frames about their axes.
   void apply(std::vector<geometry_msgs::TransformStamped>& transforms) const;
 };
 
@@ -30,7 +30,7 @@ struct CalibrationErrors {
 std::string calibrationDevices();
 
 /// Returns the errors of the options --lag DEVICE:S and --misplace FRAME:ROLL,PITCH,YAW (deg). `frames`: of the robot.
-/// Throws UserError naming what is allowed.
+/// Throws UserError listing the valid devices and frames.
 CalibrationErrors parseCalibrationErrors(const std::vector<std::string>& lags,
                                          const std::vector<std::string>& misplaced,
                                          const std::vector<std::string>& frames);

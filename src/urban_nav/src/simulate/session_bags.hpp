@@ -14,22 +14,21 @@
 namespace urban_nav {
 
 /// The bag of a simulated session, or BAG_STEM_0.bag, BAG_STEM_1.bag, ... of equal length, as `rosbag record --split`
-/// names them: each appears when it is complete, the last (or only) one with commit(). Static transforms begin each of
-/// them. `session` must outlive it. Throws UserError as BagWriter does.
+/// names them: each appears when it is complete, the last (or only) one with commit(). Each begins with the static
+/// transforms. `session` must outlive the object. Throws the errors of BagWriter.
 class SessionBags {
  public:
   /// `part`: s of the session in a bag; 0: all of it.
   SessionBags(std::string path, double part, const urban_nav_sim::Session& session, CalibrationErrors errors);
 
-  /// `taken`, which does not decrease from call to call, is when a recorder receives it; the stamp in its header may be
-  /// any.
+  /// `taken`: time of receipt by a recorder, which must not decrease; independent of the stamp in the header.
   void write(const urban_nav_sim::Measurement& measurement, urban_nav_core::StampNs taken);
   void commit();
 
-  /// Bags in order, and messages by topic in all of them; when committed.
+  /// After commit(): bags in order, and number of messages by topic in all of them.
   const std::vector<std::string>& paths() const { return paths_; }
   const std::map<std::string, std::int64_t>& counts() const { return counts_; }
-  /// A part of a longer session that was written here before, which would pass for the next one; empty: none.
+  /// Returns a file of a longer session written here before, which could be taken for the next part; empty: none.
   std::string leftover() const;
 
  private:

@@ -67,7 +67,7 @@ Simulated simulate(const SimulateJob& job, Console& console) {
   bags.commit();
   made.bags = bags.paths();
   if (const std::string old = bags.leftover(); !old.empty())
-    console.warn(old + " is of an earlier session, and no part of this one");
+    console.warn(old + " is from a previous session, not a part of this one");
   made.counts = bags.counts();
   return made;
 }

@@ -17,7 +17,7 @@ struct SimulateJob {
   std::string bag, folder;                             ///< folder: empty for none
   double part = 0.0;                                   ///< s of the session in a bag; 0: one bag for all
   double false_closures = 0.0;                         ///< per cent of the true ones
-  std::vector<std::string> lags = {}, misplaced = {};  ///< as parseCalibrationErrors() takes them
+  std::vector<std::string> lags = {}, misplaced = {};  ///< for parseCalibrationErrors()
 };
 
 struct Simulated {
@@ -27,8 +27,8 @@ struct Simulated {
   std::map<std::string, std::int64_t> counts;  ///< messages by topic
 };
 
-/// Writes the truth, the folder and at last the bag, or the last of its parts: where that is, all is there. Throws
-/// UserError. An interrupt leaves no bag that is not whole.
+/// Writes the truth, the folder and finally the bag, or its last part, whose existence implies complete output. Throws
+/// UserError. An interrupt leaves no incomplete bag.
 Simulated simulate(const SimulateJob& job, Console& console);
 
 }  // namespace urban_nav

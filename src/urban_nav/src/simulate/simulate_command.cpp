@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kLongest = 86400.0;  // s
 
-/// Words of a comma-separated list; each named with its option where it is not known.
+/// Parses a comma-separated list of sensors. Throws UserError naming the option for an unknown word.
 std::set<urban_nav_sim::Sensor> makeList(const std::string& option, const Arguments& arguments) {
   std::set<urban_nav_sim::Sensor> sensors;
   for (const std::string& word : arguments.list(option))
@@ -57,20 +57,20 @@ SimulateJob makeJob(const Arguments& arguments) {
   job.misplaced = arguments.all("misplace");
   job.bag = arguments.get("output");
   if (const std::string ending = std::filesystem::path(job.bag).extension(); ending != ".bag" && ending != ".mcap")
-    throw UserError("--output", job.bag, "a name that ends in .bag or .mcap; the truth goes beside it");
+    throw UserError("--output", job.bag, "a name that ends in .bag or .mcap; the truth is written next to it");
   job.part = arguments.number("split", 0.0, 0.1, kLongest);
   job.folder = arguments.get("folder");
   job.false_closures = arguments.number("false-closures", 0.0, 0.0, 1000.0);
   if (!job.folder.empty() && job.session.sensors.count(urban_nav_sim::Sensor::Stereo) == 0)
     throw UserError("--folder", "needs the stereo camera, which --sensors leaves out", "--sensors stereo,...");
   if (!job.folder.empty() && job.session.defects.has(urban_nav_sim::Sensor::Stereo, urban_nav_sim::Defect::Lens))
-    throw UserError("--folder", "holds rectified pairs, and --with stereo:lens makes raw ones", "one of the two");
+    throw UserError("--folder", "has rectified pairs, but --with stereo:lens makes raw ones", "one of the two");
   return job;
 }
 
 int runSimulate(const Arguments& arguments, Console& console) {
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 0, 1024)));
-  loadParameters(arguments);  // none is the simulator's own, but errors in them are reported
+  loadParameters(arguments);  // the simulator has no parameters, but errors are reported
   const SimulateJob job = makeJob(arguments);
   const Simulated made = simulate(job, console);
   Json json = Json::object();
@@ -94,49 +94,48 @@ int runSimulate(const Arguments& arguments, Console& console) {
 Command simulateCommand() {
   Command command;
   command.name = "simulate";
-  command.summary = "Drives the simulated robot through a world and writes what its sensors say, and the truth.";
+  command.summary = "Drives the simulated robot through a world and writes its sensor data and the truth.";
   command.options = {
-      {"--world", "W", "which world (default quad; below)", false, false, {}},
-      {"--seed", "N", "of the world and of all chance (default 1)", false, false, {}},
-      {"--route", "R", "which way through it (default loops; below)", false, false, {}},
-      {"--duration", "S", "how long (default 60)", false, false, {}},
+      {"--world", "W", "world (default quad; below)", false, false, {}},
+      {"--seed", "N", "seed of the world and of all random numbers (default 1)", false, false, {}},
+      {"--route", "R", "route through the world (default loops; below)", false, false, {}},
+      {"--duration", "S", "duration, s (default 60)", false, false, {}},
       {"--day",
        "D",
-       "1, 2, ...: the same world in other weather, with other vehicles and people (default 1)",
+       "1, 2, ...: the same world with different weather, vehicles and people (default 1)",
        false,
        false,
        {}},
       {"-o,--output",
        "BAG",
-       "bag to write; it appears when it is complete, the truth beside it in BAG_STEM.truth/",
+       "bag to write; it appears when it is complete, with the truth in BAG_STEM.truth/",
        true,
        false,
        {}},
       {"--split",
        "S",
-       "a bag for every S seconds, BAG_STEM_0.bag and so on, each there as soon as it is complete",
+       "a bag for every S seconds, BAG_STEM_0.bag and so on, each of which appears when it is complete",
        false,
        false,
        {}},
-      {"--folder", "DIR", "also the stereo stream as a KITTI folder", false, false, {}},
+      {"--folder", "DIR", "also write the stereo stream as a KITTI folder", false, false, {}},
       {"--sensors", "LIST", "of " + urban_nav_sim::sensorList() + " (default: all but lidar3d)", false, true, {}},
       {"--lidar", "KIND", "rings of lidar3d, 16 to 128 (default 64), or livox: a rosette", false, false, {}},
       {"--without",
        "LIST",
-       "SENSOR:DEFECT,... that sensors do not have; all for either: imu:noise, gps:all, all:jitter (below)",
+       "SENSOR:DEFECT,... to disable; all for either: imu:noise, gps:all, all:jitter (below)",
        false,
        true,
        {}},
       {"--with",
        "LIST",
-       "SENSOR:DEFECT,... that they have besides: stereo:lens (raw pairs), lasers:offset, lidar3d:times, all:clock "
-       "(below)",
+       "SENSOR:DEFECT,... to add: stereo:lens (raw pairs), lasers:offset, lidar3d:times, all:clock (below)",
        false,
        true,
        {}},
       {"--views",
        "LIST",
-       "of stereo, ladybug, lasers, lidar3d: depth and class of each pixel and beam too, in BAG_STEM.truth/",
+       "of stereo, ladybug, lasers, lidar3d: also write depth and class of each pixel and beam to BAG_STEM.truth/",
        false,
        true,
        {}},
@@ -149,20 +148,19 @@ Command simulateCommand() {
        {}},
       {"--lag",
        "DEVICE:S",
-       "stamps of " + calibrationDevices() + " that are late by a constant time, in s",
+       "stamps of " + calibrationDevices() + " that are delayed by a constant time, in s",
        false,
        true,
        {}},
       {"--misplace",
        "FRAME:ROLL,PITCH,YAW",
-       "a mounting error in deg, in /tf_static alone: laser_left:0,1,0, lidar3d:1,0,0; FRAME ladybug: of the whole "
-       "head",
+       "a mounting error in deg, in /tf_static only: laser_left:0,1,0, lidar3d:1,0,0; FRAME ladybug: the whole head",
        false,
        true,
        {}},
       {"--false-closures",
        "PERCENT",
-       "of the true closures: as many false ones in closures_false.csv",
+       "number of false closures in closures_false.csv, in percent of the true ones",
        false,
        false,
        {}},

@@ -25,7 +25,7 @@ std::string projection(const char* name, const urban_nav_core::CameraInfo& info)
   return line + "\n";
 }
 
-/// By what tells a folder of a run that was cut off from one that must not be touched.
+/// Returns the file that marks a folder of an interrupted run, which may be overwritten.
 std::string toMark(const std::string& folder) { return folder + "/simulate.unfinished"; }
 
 }  // namespace

@@ -9,15 +9,15 @@
 
 namespace urban_nav {
 
-/// The stereo stream as a folder of KITTI odometry, so that other systems run on the very same frames. Each file
-/// appears whole or not at all, poses.txt last. Until finish() it holds a file `simulate.unfinished`; where that is
-/// found, as a run that was cut off leaves it, the folder is begun anew. Throws UserError if the folder is there and
-/// not empty, or cannot be written.
+/// Writes the stereo stream as a folder of KITTI odometry, for other systems on the same frames. Files appear
+/// atomically, poses.txt last. Until finish() the folder has a file `simulate.unfinished`; a folder with that file,
+/// left by an interrupted run, is written again from the beginning. Throws UserError if the folder exists and is not
+/// empty, or cannot be written.
 class StereoFolderWriter {
  public:
   StereoFolderWriter(std::string folder, const urban_nav_sim::Session& session);
 
-  /// `T_world_left`: where the left camera truly was. A pair of which one image is missing leaves that file out.
+  /// `T_world_left`: true pose of the left camera. The file of a missing image is omitted.
   void add(const urban_nav_sim::StereoMeasurement& pair, const urban_nav_core::Pose& T_world_left);
   void finish();
 

@@ -10,16 +10,16 @@
 
 namespace urban_nav {
 
-/// What pixels and beams truly met, into the truth folder, under the stamps of the measurements: of a camera
-/// FRAME/STAMP_NS.pfm (depth, m) and .png (class), of a 3D LiDAR the same with a row for each ring, of a laser
-/// FRAME.csv (`stamp_ns,beam,range_m,class`; ranges without a surface are empty). Those of an earlier run are removed.
-/// Throws UserError where they cannot be written.
+/// Writes the true depth and class of pixels and beams to the truth folder, by the stamps of the measurements: for a
+/// camera FRAME/STAMP_NS.pfm (depth, m) and .png (class), for a 3D LiDAR both with a row per ring, for a laser
+/// FRAME.csv (`stamp_ns,beam,range_m,class`; ranges without a surface are empty). Removes those of an earlier run.
+/// Throws UserError if a file cannot be written.
 class ViewWriter {
  public:
   explicit ViewWriter(std::string folder);
 
   void add(const urban_nav_sim::ViewTruth& view);
-  /// Files of lasers appear with it.
+  /// Writes the files of the lasers.
   void finish();
 
  private:

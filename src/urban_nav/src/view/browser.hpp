@@ -5,9 +5,8 @@
 
 namespace urban_nav {
 
-/// Opens an address in the user's browser where there is a display, through a file that only this user can read: a
-/// command line is visible to all users. The file vanishes with this object. Does nothing without an address, a
-/// display or xdg-open.
+/// Opens an address in the browser of the user, through a file readable only by this user, since command lines are
+/// visible to all users. The file is removed with this object. No effect without an address, a display or xdg-open.
 class OpenedBrowser {
  public:
   explicit OpenedBrowser(const std::string& address);

@@ -20,7 +20,7 @@ using urban_nav_store::StoredTrajectory;
 
 namespace {
 
-constexpr StampNs kMaxGap = 1'000'000'000;  // ns between poses that a position is interpolated from
+constexpr StampNs kMaxGap = 1'000'000'000;  // ns between poses for interpolation
 
 std::string nameOrId(const urban_nav_store::Session& session) {
   return session.name.empty() ? session.id : session.name;

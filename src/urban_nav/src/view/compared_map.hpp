@@ -11,8 +11,8 @@
 
 namespace urban_nav {
 
-/// The sessions of another store, to compare the map that is shown with: the store before its edits, one of another
-/// build, or one with other sessions. Both maps keep their own frames, since a shift of the origin is a difference too.
+/// The sessions of another store for comparison with the shown map: the store before its edits, of another build, or
+/// with other sessions. The frames of both maps are not aligned, since a shift of the origin is a difference too.
 class ComparedMap {
  public:
   using Maps = std::vector<std::vector<urban_nav_store::StoredTrajectory>>;
@@ -20,13 +20,14 @@ class ComparedMap {
   /// Reads the trajectories of a store. Throws the errors of the store.
   explicit ComparedMap(const std::string& path);
 
-  /// Returns how far the poses of these maps lie from those of the other store: `store`, `sessions` (of those in both:
-  /// `session`, its place in the order of `maps`, `poses` that were compared, `largest_m`, `rms_m`, and `seconds` since
-  /// the beginning of the session at the largest), and `absent_there` and `absent_here`, names of sessions.
+  /// Returns the distances between the poses of these maps and those of the other store: `store`, `sessions` (of those
+  /// in both: `session`, its place in the order of `maps`, `poses` that were compared, `largest_m`, `rms_m`, and
+  /// `seconds` since the beginning of the session at the largest), and `absent_there` and `absent_here`, names of
+  /// sessions.
   Json summary(const Maps& maps) const;
 
-  /// Returns for each pose of `maps`, in their order, where the other store has it: x, y, z (m) as float32 in little
-  /// endian; not a number where it does not have it.
+  /// Returns the position in the other store of each pose of `maps`, in their order: x, y, z (m) as little-endian
+  /// float32; NaN for missing poses.
   std::string place(const Maps& maps) const;
 
  private:

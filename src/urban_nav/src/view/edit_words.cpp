@@ -22,7 +22,7 @@ constexpr std::array<const char*, 5> kEditOptions = {"pose", "sigma", "at", "geo
 constexpr const char* kExpectedEdit = R"({"action": "reject", "arguments": ["3"]}, with the words of `urban_nav edge`)";
 
 std::string checkedWord(const nlohmann::json& value, const std::string& where) {
-  if (!value.is_string()) throw UserError(where, "is not a text", kExpectedEdit);
+  if (!value.is_string()) throw UserError(where, "is not a string", kExpectedEdit);
   const std::string& word = value.get_ref<const std::string&>();
   if (word.size() > kLongestWord)
     throw UserError(where, std::to_string(word.size()) + " bytes", "at most " + std::to_string(kLongestWord));
@@ -44,7 +44,7 @@ std::string EditWords::print() const {
 
 EditWords parseEditWords(std::string_view text) {
   const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object()) throw UserError("request", "is not an object of JSON", kExpectedEdit);
+  if (!json.is_object()) throw UserError("request", "is not a JSON object", kExpectedEdit);
   for (const auto& [key, value] : json.items())
     if (key != "action" && key != "arguments" && key != "options")
       throw UserError("request", "has a member \"" + key.substr(0, 40) + "\"", kExpectedEdit);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kTokenHeader = "x-urban-nav-token";
 constexpr std::size_t kTokenLength = 32;  // 192 bits
-constexpr int kHttpPort = 80;             // which a host may leave out
+constexpr int kHttpPort = 80;             // which may be omitted in a host
 
 std::string inLowerCase(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });

@@ -8,19 +8,18 @@
 
 namespace urban_nav {
 
-/// Admits holders of a token that is drawn anew at each start, through a page of this server alone. Programs of
-/// other users of the machine lack the token; pages of other servers have another origin, and a name that was made to
-/// lead to this address another host. Thread-safe.
+/// Admits requests with a token, drawn at each start, from pages of this server only. Programs of other users of the
+/// machine do not have the token; pages of other servers have another origin, and DNS rebinding gives another host.
+/// Thread-safe.
 class Gate {
  public:
-  /// `address`: numeric, as in the address that is printed.
+  /// `address`: numeric, as in the printed address.
   Gate(const std::string& address, int port);
 
   const std::string& token() const { return token_; }
   /// Returns the address of the page.
   std::string pageAddress() const { return "http://" + hosts_.front() + "/?token=" + token_; }
-  /// Returns null for a request that may go on, else 403 and nothing more; with the token, the status of what else is
-  /// wrong with it.
+  /// Returns null for an admitted request; 403 without the token; with the token, the status of another defect.
   std::unique_ptr<HttpAnswer> admit(const HttpRequest& request) const;
 
  private:
@@ -33,7 +32,7 @@ class Gate {
 /// Returns a text of 32 characters of [A-Za-z0-9_-] from the system's source of random numbers.
 std::string drawToken();
 
-/// Returns whether two texts are equal, in a time that depends on their lengths alone.
+/// Returns whether two texts are equal, in a time that depends only on their lengths.
 bool areEqualInConstantTime(const std::string& one, const std::string& other);
 
 }  // namespace urban_nav

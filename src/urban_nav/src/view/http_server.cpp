@@ -56,7 +56,7 @@ HttpRequest toRequest(const httplib::Request& given) {
   return request;
 }
 
-/// Headers of every answer: no other page may frame it, read it or keep it.
+/// Headers of every answer, against framing, reading and caching by other pages.
 const httplib::Headers& commonHeaders() {
   static const httplib::Headers all = {{"Cache-Control", "no-store"},
                                        {"Cross-Origin-Opener-Policy", "same-origin"},
@@ -79,7 +79,7 @@ class HttpServer::Implementation {
     server_.set_payload_max_length(kLargestBody);
     server_.set_tcp_nodelay(true);
     server_.set_default_headers(commonHeaders());
-    // The library's own options would let two servers share a port.
+    // The default options of the library would let two servers share a port.
     server_.set_socket_options([](socket_t socket) {
       const int yes = 1;
       ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -87,7 +87,7 @@ class HttpServer::Implementation {
     if (port == 0) port_ = server_.bind_to_any_port(address);
     else if (server_.bind_to_port(address, port)) port_ = port;
     if (port_ <= 0)
-      throw UserError("port " + std::to_string(port) + " of " + address, "cannot be opened: it is in use, or reserved",
+      throw UserError("port " + std::to_string(port) + " of " + address, "cannot be opened: in use or reserved",
                       "--port with another number, or --port 0 for a free one; --address with one of this machine");
   }
   ~Implementation() { stop(); }
@@ -119,7 +119,7 @@ class HttpServer::Implementation {
   bool isRunning() const { return server_.is_running(); }
 
  private:
-  /// Answers what needs no body; returns false for a POST that was admitted.
+  /// Answers requests without a body; returns false for an admitted POST.
   bool beforeBody(const httplib::Request& given, httplib::Response& response) {
     const HttpRequest request = toRequest(given);
     if (const std::unique_ptr<HttpAnswer> refusal = admit_(request)) {
@@ -173,8 +173,7 @@ class HttpServer::Implementation {
 class HttpServer::Implementation {
  public:
   Implementation(const std::string&, int) {
-    throw UserError("urban_nav view", "this program was built without cpp-httplib",
-                    "a build where the package libcpp-httplib-dev is installed");
+    throw UserError("urban_nav view", "built without cpp-httplib", "a build with the package libcpp-httplib-dev");
   }
   void start(const Admission&, const Handler&) {}
   void stop() {}

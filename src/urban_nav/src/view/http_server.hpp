@@ -9,13 +9,13 @@
 
 namespace urban_nav {
 
-/// A request as it came: nothing in it is checked but that it is HTTP.
+/// A request without any checks beyond HTTP syntax.
 struct HttpRequest {
   std::string method;  ///< "GET"
   std::string path;    ///< decoded, without the query
   std::multimap<std::string, std::string> query;
   std::multimap<std::string, std::string> headers;  ///< names in lower case
-  std::string body;                                 ///< filled in for a POST that was admitted
+  std::string body;                                 ///< of an admitted POST
 
   /// Returns the values of a header; `name` in lower case.
   std::vector<std::string> header(const std::string& name) const;
@@ -27,16 +27,16 @@ struct HttpAnswer {
   int status = 200;
   std::string type = "text/plain; charset=utf-8";
   std::string body;
-  /// For an answer without end: called again and again for what comes next, and may block for about a second; empty
-  /// text is a pause, false the end. Null: `body` is all.
+  /// For a streamed answer: called repeatedly for the next part, and may block for about a second; empty text is a
+  /// pause, false the end. Null: the answer is `body`.
   std::function<bool(std::string& next)> stream = {};
 };
 
-/// A server of HTTP/1.1 on one address of this machine. Every request goes to `admit` first, without its body; what it
-/// answers is the answer. Requests are bounded in size. Handlers are called from several threads at once.
+/// An HTTP/1.1 server on one address of this machine. Each request is first passed to `admit`, without its body.
+/// Requests are bounded in size. Handlers are called from several threads concurrently.
 class HttpServer {
  public:
-  /// Returns an answer for a request that is refused; null for one that goes on to `handle`.
+  /// Returns the answer for a refused request; null to pass the request to `handle`.
   using Admission = std::function<std::unique_ptr<HttpAnswer>(const HttpRequest&)>;
   using Handler = std::function<HttpAnswer(const HttpRequest&)>;
 
@@ -48,11 +48,11 @@ class HttpServer {
   HttpServer& operator=(const HttpServer&) = delete;
 
   int port() const;
-  /// Answers requests in threads of its own from now on.
+  /// Starts the threads that answer requests.
   void start(Admission admit, Handler handle);
   /// Returns whether requests are being answered.
   bool isRunning() const;
-  /// Ends: answers that have begun are finished, streams are cut off. Blocks until all threads have ended.
+  /// Stops: finishes answers in progress, ends streams. Blocks until all threads have ended.
   void stop();
 
  private:

@@ -29,14 +29,14 @@ std::vector<Trajectory> allTrajectories(const MapPoints::Maps& maps) {
   return all;
 }
 
-/// Returns the pose at a time, the first or last one outside.
+/// Returns the pose at a time, clamped to the first or last one.
 std::optional<Pose> poseWithin(const Trajectory& trajectory, StampNs stamp) {
   if (trajectory.empty()) return std::nullopt;
   const StampNs first = trajectory[0].stamp, last = trajectory[trajectory.size() - 1].stamp;
   return trajectory.at(std::clamp(stamp, first, last), std::numeric_limits<StampNs>::max());
 }
 
-/// Returns the session of a map in progress at a time, the nearest one otherwise.
+/// Returns the session of a map at a time, else the nearest one.
 std::size_t sessionAt(const std::vector<Trajectory>& all, std::size_t begin, std::size_t end, StampNs stamp) {
   std::size_t best = begin;
   double least = std::numeric_limits<double>::infinity();

@@ -9,18 +9,18 @@
 
 namespace urban_nav {
 
-/// Points of the maps of a store, evenly thinned to kMostShownPoints, each with the pose that it was measured from:
-/// when a relaxation moves the poses, the points move with them, and nothing is rendered.
+/// Points of the maps of a store, evenly thinned to kMostShownPoints, each with the pose from which it was measured:
+/// points follow their poses after a relaxation, without rendering.
 class MapPoints {
  public:
   using Maps = std::vector<std::vector<urban_nav_store::StoredTrajectory>>;
 
-  /// Reads the points as `export` has them, which renders a map that edits have moved. `memory_mb`: for decoded images.
-  /// Throws the errors of the store.
+  /// Reads the points as for `export`, which renders a map whose poses were moved by edits. `memory_mb`: for decoded
+  /// images. Throws the errors of the store.
   MapPoints(urban_nav_store::Store& store, const Maps& maps, double memory_mb);
 
-  /// Returns the points where these maps, of the same store, have them. 24 bytes a point, little endian: x, y, z (m, in
-  /// its map), seconds since the beginning of its session (float32), place of the session in the order of `maps`
+  /// Returns the points at the poses of these maps of the same store. 24 bytes per point, little endian: x, y, z (m, in
+  /// its map), seconds since the beginning of its session (float32), index of the session in the order of `maps`
   /// (uint16), sensor, sigma (0.5 mm; 255: at least that), red, green, blue, reflectance (uint8).
   std::string place(const Maps& maps) const;
 

@@ -11,9 +11,8 @@
 
 namespace urban_nav {
 
-/// A map that the page shows and changes, wherever the map is: in a store, or in nodelets that build it.
-/// Implementations are thread-safe; functions throw UserError for what the user can correct and DataError for what the
-/// data do not allow.
+/// A map shown and edited by the page: in a store, or in nodelets that build it. Implementations are thread-safe;
+/// functions throw UserError for errors of the user and DataError for unsuitable data.
 class MapSource {
  public:
   MapSource() = default;
@@ -26,23 +25,23 @@ class MapSource {
   /// Returns the poses of all sessions in the order of state(): for each one seconds since its beginning, x, y, z (m,
   /// in its map) as float32 in little endian.
   virtual std::string paths() = 0;
-  /// Returns where another map has the poses of paths(), in the encoding of ComparedMap; empty without another map.
+  /// Returns the positions of the poses of paths() in another map, in the encoding of ComparedMap; empty without one.
   virtual std::string comparedPlaces() = 0;
   /// Returns points of the maps in the encoding of MapPoints; empty without any.
   virtual std::string points() = 0;
-  /// Returns which closures hold the pose at a moment, which is written as `why --jump` takes it.
+  /// Returns the closures that determine the pose at a moment, given as for `why --jump`.
   virtual Json explainMoment(const std::string& moment) = 0;
-  /// Returns why a closure has its verdict.
+  /// Returns the explanation of the verdict on a closure.
   virtual Json explain(std::int64_t closure) = 0;
   /// Returns the stored view of the left camera nearest to a moment, `seconds` since the beginning of a session in the
   /// order of state(), as JPEG; nullopt without one within 2 s.
   virtual std::optional<std::string> view(std::size_t session, double seconds) = 0;
-  /// Measures the transform between two moments, as `edge` takes them, and changes nothing. Returns the keys of
+  /// Measures the transform between two moments, given as for `edge`, without changing the map. Returns the keys of
   /// explain(), `accepted`, and `reason` if it is not; its pictures are those of closure 0 until the next call.
   virtual Json tryMeasurement(const std::string& t1, const std::string& t2) = 0;
-  /// Returns the picture of a try to measure a closure as JPEG; nullopt without one.
+  /// Returns the picture of a registration attempt of a closure as JPEG; nullopt without one.
   virtual std::optional<std::string> picture(std::int64_t closure, std::size_t number) = 0;
-  /// Makes an edit and returns its effect: the keys of `urban_nav edge --json`, and `text`.
+  /// Applies an edit and returns its effect: the keys of `urban_nav edge --json`, and `text`.
   virtual Json edit(const EditWords& words) = 0;
 };
 

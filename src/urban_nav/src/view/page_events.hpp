@@ -8,21 +8,21 @@
 
 namespace urban_nav {
 
-/// The state that open pages follow: how often the map has changed, and the command that runs. Thread-safe.
+/// The state followed by open pages: the number of changes of the map, and the running command. Thread-safe.
 class PageEvents {
  public:
   struct State {
-    std::int64_t number = 0;    ///< counts the changes of what follows
+    std::int64_t number = 0;    ///< counts the changes of the following members
     std::int64_t revision = 1;  ///< counts the changes of the map
-    std::string running;        ///< command that runs; empty: none
-    std::string outcome;        ///< result of the last command, for a person
+    std::string running;        ///< running command; empty: none
+    std::string outcome;        ///< result of the last command, for the user
   };
 
   State state() const;
   void begin(const std::string& command);
-  /// The command has ended; the map may have changed.
+  /// Reports the end of the command, which may have changed the map.
   void finish(const std::string& outcome, bool changed);
-  /// The map has changed by another program.
+  /// Reports a change of the map by another program.
   void changed();
   /// Waits until the state has another number than `known`, about a second at most, and returns it.
   State wait(std::int64_t known) const;

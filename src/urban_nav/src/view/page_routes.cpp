@@ -23,13 +23,13 @@ HttpAnswer asError(int status, const std::string& sentence) {
   return asJson(Json::object({{"error", sentence}}).print(), status);
 }
 
-HttpAnswer notThere() { return {404, "text/plain; charset=utf-8", "not there\n"}; }
+HttpAnswer notThere() { return {404, "text/plain; charset=utf-8", "not found\n"}; }
 
-/// Returns a whole number of the address.
+/// Returns an integer parameter of the address.
 std::int64_t numberIn(const HttpRequest& request, const std::string& name) {
   const std::vector<std::string> values = request.parameter(name);
   const auto number = values.size() == 1 ? urban_nav_core::parseInteger(values.front()) : std::nullopt;
-  if (!number || *number < 0) throw UserError(name, "is missing or no whole number", name + "=N in the address");
+  if (!number || *number < 0) throw UserError(name, "is missing or not an integer", name + "=N in the address");
   return *number;
 }
 
@@ -43,7 +43,7 @@ std::string wordIn(const HttpRequest& request, const std::string& name) {
 double secondsIn(const HttpRequest& request) {
   const auto seconds = urban_nav_core::parseNumber(wordIn(request, "seconds"));
   if (!seconds || !std::isfinite(*seconds) || std::abs(*seconds) > kLongestSession)
-    throw UserError("seconds", "is no number of seconds in a session", "seconds=S in the address");
+    throw UserError("seconds", "is not a time within a session", "seconds=S in the address");
   return *seconds;
 }
 
@@ -115,7 +115,7 @@ HttpAnswer PageRoutes::follow() const {
   answer.type = "text/event-stream";
   answer.stream = [this, known = std::int64_t{-1}](std::string& next) mutable {
     const PageEvents::State state = events_.wait(known);
-    // Server-sent events (HTML standard, section 9.2). A comment now and then shows whether the page is still there.
+    // Server-sent events (HTML standard, section 9.2). Periodic comments detect a closed page.
     next = state.number == known ? ":\n\n" : "data: " + asData(state) + "\n\n";
     known = state.number;
     return true;

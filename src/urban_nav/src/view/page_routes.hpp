@@ -7,9 +7,9 @@
 
 namespace urban_nav {
 
-/// Answers the requests of the page, which the gate has admitted: the page itself at `/`, and below `/api/` what it
-/// loads and the edits that it posts. Errors of the source are answered as `{"error": sentence}`: 400 for the user's,
-/// 409 for the data's. No request names a file. Thread-safe.
+/// Answers the requests of the page admitted by the gate: the page at `/`, and its data and edits below `/api/`. Errors
+/// of the source are answered as `{"error": sentence}` with status 400 for UserError and 409 for DataError. No request
+/// names a file. Thread-safe.
 class PageRoutes {
  public:
   /// Both must outlive this object.
@@ -26,7 +26,7 @@ class PageRoutes {
   PageEvents& events_;
 };
 
-/// Returns the page with its scripts and style in it. It loads nothing but what this server offers.
+/// Returns the page with embedded scripts and style. It loads only from this server.
 std::string viewPage();
 
 }  // namespace urban_nav

@@ -10,7 +10,7 @@
 
 namespace urban_nav {
 
-/// The content of a store that the page shows. The members referred to must outlive it.
+/// The content of a store shown by the page. References must outlive it.
 struct ShownState {
   const std::vector<std::vector<urban_nav_store::StoredTrajectory>>& maps;
   const std::vector<StoredClosure>& closures;
@@ -21,7 +21,7 @@ struct ShownState {
 };
 
 /// Returns the state as JSON: `sessions` in the order of their maps, `closures`, whose ends refer to a session by its
-/// place in that list, and `edits`. Stamps are texts, s since 1970, as `edge` takes them.
+/// index in that list, and `edits`. Stamps are texts in s since 1970, as for `edge`.
 Json stateAsJson(const ShownState& state);
 
 /// Appends a number as float32 in little endian.

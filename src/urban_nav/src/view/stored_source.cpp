@@ -63,7 +63,7 @@ std::string fileState(const std::string& path) {
 
 }  // namespace
 
-/// A store that is open for reading, and what has been read of it.
+/// A store open for reading, and its content.
 struct StoredSource::Content {
   explicit Content(const std::string& path) : store(urban_nav_store::openForReading(path)) {
     for (const auto& map : readMaps(store, urban_nav_store::selectSessions(store, {}))) maps.push_back(map);
@@ -103,7 +103,7 @@ StoredSource::Content& StoredSource::content() {
   return *content_;
 }
 
-/// Calls a function with the content; once more if another program wrote the store meanwhile.
+/// Calls a function with the content; again if another program has written the store meanwhile.
 template <typename Read>
 auto StoredSource::reading(const Read& read) {
   const std::lock_guard lock(mutex_);
@@ -148,7 +148,7 @@ std::string StoredSource::points() {
   if (!points_) {
     const double memory_mb =
         kPointsImageShare * loadParameters(Arguments(options_, tables_)).get(commandTable()).memory_mb;
-    Store store = urban_nav_store::openForReading(path_);  // a handle of its own: colours may take minutes
+    Store store = urban_nav_store::openForReading(path_);  // a separate handle, since colours may take minutes
     points_.emplace(store, maps, memory_mb);
   }
   return points_->place(maps);
@@ -165,7 +165,7 @@ const Page& StoredSource::explanation(std::int64_t closure) {
   const auto found = std::find_if(its.closures.begin(), its.closures.end(),
                                   [&](const StoredClosure& each) { return each.id == closure; });
   if (found == its.closures.end())
-    throw UserError("closure", std::to_string(closure) + ": no closure has this ID", "an ID of the list");
+    throw UserError("closure", std::to_string(closure) + ": no such closure", "an ID of the list");
   if (its.explanations.size() >= kKeptExplanations) its.explanations.clear();
   return its.explanations[closure] = explainOnPage(*found, its.store, cloudHalfLength());
 }
@@ -190,7 +190,7 @@ std::optional<std::string> StoredSource::view(std::size_t session, double second
       if (shown.T_map_base.empty()) return std::nullopt;
       return nearestView(content.store, shown.session.id, shown.T_map_base.front().stamp + std::llround(1e9 * seconds));
     }
-    throw UserError("session", std::to_string(session) + ": no such session", "a place in the list of sessions");
+    throw UserError("session", std::to_string(session) + ": no such session", "an index in the list of sessions");
   });
 }
 
@@ -232,7 +232,7 @@ Json StoredSource::edit(const EditWords& words) {
   if (read_only_) throw UserError("urban_nav view", "an edit of a store that is shown by --read-only", "no edits");
   const std::lock_guard lock(mutex_);
   events_.begin(words.print());
-  content_.reset();  // the edit is alone with the store, and removes its log in the end
+  content_.reset();  // the edit needs exclusive access, and removes the log at the end
   try {
     const EditResult result = editStore(edgeArguments(words));
     Json json = toJson(result.outcome);

@@ -18,8 +18,8 @@
 
 namespace urban_nav {
 
-/// The map of a session store. Edits are made by editStore(), one at a time, and nothing is read meanwhile; a store
-/// that another program writes is read and not changed.
+/// The map of a session store. Edits are applied by editStore(), one at a time, while the store is not read. A store
+/// that is being written by another program is only read.
 class StoredSource final : public MapSource {
  public:
   using Values = std::map<std::string, std::vector<std::string>>;
@@ -40,7 +40,7 @@ class StoredSource final : public MapSource {
   std::optional<std::string> picture(std::int64_t closure, std::size_t number) override;
   Json edit(const EditWords& words) override;
 
-  /// Notices changes that another program has committed. To be called about twice a second.
+  /// Detects changes committed by another program. Call about twice a second.
   void poll();
 
  private:
@@ -58,15 +58,15 @@ class StoredSource final : public MapSource {
   const Values options_;
   const ParameterTables tables_;
   PageEvents& events_;
-  std::mutex mutex_;  ///< guards what follows, and the store: it is not read while it is edited
+  std::mutex mutex_;  ///< guards the following members and the store
   std::shared_ptr<Content> content_;
   std::optional<ComparedMap> compared_;
   std::string seen_;    ///< size and time of the files and their logs
-  std::mutex loading_;  ///< guards what follows; taken before mutex_
+  std::mutex loading_;  ///< guards the following members; locked before mutex_
   std::optional<MapPoints> points_;
 };
 
-/// Returns a page as JSON: what its elements show, without markup; pictures by their numbers, in order.
+/// Returns the content of a page as JSON, without markup; pictures by their numbers, in order.
 Json pageAsJson(const Page& page);
 
 }  // namespace urban_nav

@@ -29,14 +29,14 @@ std::string listenAddress(const Arguments& arguments) {
   in6_addr six{};
   const bool is_four = ::inet_pton(AF_INET, address.c_str(), &four) == 1;
   if (!is_four && ::inet_pton(AF_INET6, address.c_str(), &six) != 1)
-    throw UserError("--address", address, "one address of this machine in numbers: 127.0.0.1, 192.168.1.7, ::1");
+    throw UserError("--address", address, "one numeric address of this machine: 127.0.0.1, 192.168.1.7, ::1");
   if ((is_four && four.s_addr == INADDR_ANY) || (!is_four && IN6_IS_ADDR_UNSPECIFIED(&six) != 0))
-    throw UserError("--address", address + " means all addresses of this machine",
-                    "the one by which the page will be opened");
+    throw UserError("--address", address + " stands for all addresses of this machine",
+                    "the address by which the page will be opened");
   return address;
 }
 
-/// Keeps SIGINT and SIGTERM waiting, in all threads that are started from then on, until one of them is taken.
+/// Blocks SIGINT and SIGTERM in all threads started later, until one of them is received.
 class EndSignals {
  public:
   EndSignals() {
@@ -49,7 +49,7 @@ class EndSignals {
   EndSignals(const EndSignals&) = delete;
   EndSignals& operator=(const EndSignals&) = delete;
 
-  /// Waits for one of them; returns whether it came within the time.
+  /// Waits for a signal; returns false after the timeout.
   bool wait(long nanoseconds) const {
     const timespec patience{0, nanoseconds};
     return ::sigtimedwait(&both_, nullptr, &patience) > 0;
@@ -80,7 +80,7 @@ int runView(const Arguments& arguments, const ParameterTables& tables, Console& 
   server.start([&](const HttpRequest& request) { return gate.admit(request); },
                [&](const HttpRequest& request) { return routes.answer(request); });
   console.print(gate.pageAddress() + "\n");
-  console.info("Serving " + arguments.get("STORE") + " at this address; Ctrl-C ends it");
+  console.info("Serving " + arguments.get("STORE") + " at this address; press Ctrl-C to stop");
   {
     const OpenedBrowser browser(arguments.has("no-browser") ? "" : gate.pageAddress());
     while (!signals.wait(kPollInterval) && server.isRunning()) source.poll();
@@ -94,22 +94,22 @@ int runView(const Arguments& arguments, const ParameterTables& tables, Console& 
 Command viewCommand(ParameterTables tables) {
   Command command;
   command.name = "view";
-  command.summary = "Shows a map and its closures in the browser, where each correction is an edit as of `edge`.";
+  command.summary = "Shows a map and its closures in the browser; corrections are edits as by `edge`.";
   command.options = {{"STORE", "", "session.db of a map", true, false, {}},
                      {"STORE2",
                       "",
-                      "another one, for comparison: where it has the sessions of STORE, and how far that is away",
+                      "another store to compare: its poses of the sessions of STORE, and their distances",
                       false,
                       false,
                       {}},
                      {"--port", "N", "port to listen on (default 0: a free one)", false, false, {}},
                      {"--address",
                       "A",
-                      "address of this machine to listen on (default 127.0.0.1: from this machine alone)",
+                      "address of this machine to listen on (default 127.0.0.1: from this machine only)",
                       false,
                       false,
                       {}},
-                     {"--read-only", "", "no edits: the store is only read", false, false, {}},
+                     {"--read-only", "", "do not allow edits", false, false, {}},
                      {"--no-browser", "", "prints the address and opens no browser", false, false, {}},
                      configOption(),
                      setOption(),

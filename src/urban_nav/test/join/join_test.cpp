@@ -101,7 +101,7 @@ TEST_F(JoinedDays, ClosuresThatAreNotProposedAnywhereAreNamed) {
   }
   ASSERT_EQ(runWords({"join", file("given.db"), store("second"), "-o", file("named.db"), "--json", file("named.json")}),
             0);
-  EXPECT_NE(readFile(file("named.json")).find("1 of 1 closures that the stores had accepted are not in the joined map"),
+  EXPECT_NE(readFile(file("named.json")).find("1 of 1 accepted closures of the stores are not in the joined map"),
             std::string::npos);
 }
 

@@ -55,15 +55,28 @@ class Results(FolderCase):
 class Tables(FolderCase):
     DATA = {"columns": ["a", "b"], "rows": [["1.50", 2.50], ["x", None]], "machine": "M", "commit": "c", "command": "p.py", "notes": ["One.", "Two."]}
 
-    def render(self, **changes):
+    def render(self, selection="", **changes):
         (self.folder / "results").mkdir(exist_ok=True)
         (self.folder / "results" / "t.json").write_text(json.dumps(self.DATA | changes))
         with mock.patch.object(tables, "ROOT", self.folder):
-            return tables.render("t")
+            return tables.render("t", selection)
 
     def test_numbers_stand_as_the_file_has_them(self):
         self.assertEqual(self.render().splitlines(), ["| a | b |", "| --- | --- |", "| 1.50 | 2.5 |", "| x |  |", "", "One.", "Two.",
                                                       "<sub>`p.py` on M, commit c</sub>"])
+
+    def test_a_selection_keeps_columns_and_rows(self):
+        self.assertEqual(self.render("; columns: b | a; where: a = 1.50 | y").splitlines(),
+                         ["| b | a |", "| --- | --- |", "| 2.5 | 1.50 |", "", "<sub>M, commit c</sub>"])
+
+    def test_a_selection_of_what_is_not_there_is_an_error(self):
+        for selection in ("; columns: c", "; where: c = 1", "; where: a = z", "; rows: a"):
+            with self.assertRaisesRegex(ValueError, "selection"):
+                self.render(selection)
+
+    def test_a_marked_table_is_found_with_its_selection(self):
+        found = tables.TABLE.search("<!-- table: a/b; columns: x, y | z -->\nold\n<!-- end -->")
+        self.assertEqual((found[2], found[3], found[4]), ("a/b", "; columns: x, y | z", "old\n"))
 
     def test_a_row_too_short_is_named(self):
         with self.assertRaisesRegex(ValueError, r"results/t.json: 2 columns, but a row is \['x'\]"):

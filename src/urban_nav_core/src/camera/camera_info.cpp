@@ -10,7 +10,7 @@
 namespace urban_nav_core {
 namespace {
 
-// Rows, focal lengths and centres of a rectified pair agree to this; calibration programs print about five digits.
+// Tolerance for rows, focal lengths and centres of a rectified pair; calibration programs print about five digits.
 constexpr double kSamePixel = 0.01;  // px
 constexpr int kLargestSide = 32767;  // px
 

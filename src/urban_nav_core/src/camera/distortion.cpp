@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kNewtonSteps = 30;
 constexpr double kConverged = 1e-13;
-constexpr double kAnswer = 1e-11;   // residual that is taken for an inverse
-constexpr int kFoldSamples = 4000;  // of the radius, every 0.002: lenses bend more slowly than that
+constexpr double kAnswer = 1e-11;   // largest residual of an inverse
+constexpr int kFoldSamples = 4000;  // samples of the radius, every 0.002: distortion varies more slowly than that
 
 }  // namespace
 
@@ -32,19 +32,20 @@ Distortion Distortion::named(const std::string& model, const std::vector<double>
   const bool fisheye = model == "equidistant" || model == "fisheye" || model == "kannala_brandt";
   if (coefficients.empty() || has_only_zeros()) return Distortion();
   if (!std::all_of(coefficients.begin(), coefficients.end(), [](double k) { return std::isfinite(k); })) {
-    throw UserError(where, "a distortion coefficient that is no number", "finite coefficients");
+    throw UserError(where, "a distortion coefficient that is not finite", "finite coefficients");
   }
   const std::size_t count = coefficients.size();
   if (model.empty() && count != 5 && count != 8 && count != 14)
     throw UserError(where, "distortion_model is empty, with " + std::to_string(count) + " coefficients",
                     "plumb_bob, rational_polynomial or equidistant");
-  // Drivers that set no name: five coefficients are those of plumb_bob, more those of the rational polynomial.
+  // Without a model name, five coefficients are those of plumb_bob, more are those of the rational polynomial.
   const bool plumb_bob =
       (model.empty() && count == 5) || model == "plumb_bob" || model == "radial-tangential" || model == "radtan";
   const bool rational = (model.empty() && count > 5) || model == "rational_polynomial";
   if (!plumb_bob && !rational && !fisheye) {
-    throw UserError(where, "distortion model " + model,
-                    "plumb_bob, radial-tangential, rational_polynomial, equidistant (rectify others before)");
+    throw UserError(
+        where, "distortion model " + model,
+        "plumb_bob, radial-tangential, rational_polynomial, equidistant (rectify images of other models first)");
   }
   const std::size_t used = fisheye ? 4 : 8;
   if (coefficients.size() < 4)
@@ -53,7 +54,7 @@ Distortion Distortion::named(const std::string& model, const std::vector<double>
     if (coefficients[i] != 0.0)
       throw UserError(
           where, "distortion coefficient " + std::to_string(i + 1) + " of " + model + " is not zero",
-          "at most " + std::to_string(used) + " coefficients (thin prisms and tilted sensors are not known)");
+          "at most " + std::to_string(used) + " coefficients (thin prisms and tilted sensors are not supported)");
   if (fisheye) return equidistant({coefficients[0], coefficients[1], coefficients[2], coefficients[3]});
   std::array<double, 8> k{};
   std::copy_n(coefficients.begin(), std::min(coefficients.size(), k.size()), k.begin());
@@ -73,7 +74,7 @@ bool Distortion::isNone() const {
 }
 
 Distortion::Radial Distortion::equidistantRadial(double r2) const {
-  constexpr double kNearAxis = 1e-8;  // of r^2: below, the series of atan
+  constexpr double kNearAxis = 1e-8;  // of r^2: below, atan is replaced by its series
   if (r2 < kNearAxis) return {1.0 + r2 * (k_[0] - 1.0 / 3.0), k_[0] - 1.0 / 3.0};
   const double r = std::sqrt(r2), a = std::atan(r), a2 = a * a;
   const double bent = a * (1.0 + a2 * (k_[0] + a2 * (k_[1] + a2 * (k_[2] + a2 * k_[3]))));
@@ -92,7 +93,7 @@ Distortion::Radial Distortion::radial(double r2) const {
 }
 
 double Distortion::findFold() const {
-  // d(r f)/dr = f + 2 r^2 f'; also where the denominator passes through zero the formula has ended.
+  // d(r f)/dr = f + 2 r^2 f'; the formula is also invalid from a zero of the denominator on.
   const auto rises = [this](double r) {
     const Radial at = radial(r * r);
     const double below = equidistant_ ? 1.0 : 1.0 + r * r * (k_[5] + r * r * (k_[6] + r * r * k_[7]));
@@ -150,7 +151,7 @@ std::optional<Eigen::Vector2d> Distortion::undistort(const Eigen::Vector2d& dist
   const double radius = distorted.norm();
   if (!std::isfinite(radius)) return std::nullopt;
   if (radius == 0.0 && isNone()) return distorted;
-  // The radial part alone gives a start on the right side of the fold, from which the tangential part is a small step.
+  // The radial part gives an initial value on the right side of the fold; the tangential part is a small correction.
   Eigen::Vector2d ideal = radius > 0.0 ? Eigen::Vector2d(distorted * (radiusSeenAt(radius) / radius)) : distorted;
   for (int i = 0; i < kNewtonSteps; ++i) {
     const Eigen::Vector2d residual = distorted - formula(ideal);

@@ -7,7 +7,7 @@
 namespace urban_nav_core {
 namespace {
 
-// Nearer than this the quotient says nothing any more and may overflow.
+// Nearer points are not projected: the quotient is meaningless and may overflow.
 constexpr double kNearest = 1e-6;  // m
 
 }  // namespace

@@ -17,14 +17,14 @@ constexpr int kOne = 1 << kFractionBits;
 using cv::v_int16x8;
 using cv::v_uint16x8;
 
-/// Bytes u and u + 1 of eight places as the low and high halves of eight lanes.
+/// Loads bytes u and u + 1 at eight offsets as the low and high halves of eight lanes.
 inline v_uint16x8 pairs(const std::uint8_t* data, const int* offsets) {
   std::uint16_t lanes[8];
   for (int i = 0; i < 8; ++i) std::memcpy(&lanes[i], data + offsets[i], 2);
   return cv::v_load(lanes);
 }
 
-/// At most 255 * 128, so it fits into signed lanes.
+/// Interpolates along the row. At most 255 * 128, which fits signed lanes.
 inline v_int16x8 across(const v_uint16x8& pair, const v_int16x8& du) {
   const v_int16x8 left = cv::v_reinterpret_as_s16(pair & cv::v_setall_u16(255));
   const v_int16x8 right = cv::v_reinterpret_as_s16(pair >> 8);

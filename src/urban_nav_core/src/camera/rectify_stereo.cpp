@@ -11,17 +11,17 @@ namespace urban_nav_core {
 namespace {
 
 constexpr int kBorderSamples = 512;   // per side
-constexpr double kInside = 0.01;      // px that the view stays within what is covered: the table rounds to 1/128
+constexpr double kInside = 0.01;      // px of margin inside the covered area: the table is rounded to 1/128
 constexpr double kLeastCosine = 0.5;  // between the two optical axes
 
-/// A rectangle in the plane z = 1 of the rectified camera.
+/// Rectangle in the plane z = 1 of the rectified camera.
 struct Rectangle {
   double left = -std::numeric_limits<double>::infinity(), right = std::numeric_limits<double>::infinity();
   double top = left, bottom = right;
 };
 
-/// Direction, rectified, of a pixel on the border; where the lens folds, of the outermost pixel towards the centre
-/// that it reaches.
+/// Returns the rectified direction of a border pixel; if it is beyond the fold of the distortion, of the outermost
+/// valid pixel towards the centre.
 std::optional<Eigen::Vector2d> borderDirection(const RawCamera& raw, const Eigen::Matrix3d& R,
                                                const Eigen::Vector2d& pixel) {
   const Eigen::Vector2d centre(raw.pinhole.cx, raw.pinhole.cy);
@@ -38,7 +38,7 @@ std::optional<Eigen::Vector2d> borderDirection(const RawCamera& raw, const Eigen
   return Eigen::Vector2d(turned.head<2>() / turned.z());
 }
 
-/// Cuts the rectangle down to what this camera covers. False if a border cannot be followed.
+/// Shrinks the rectangle to the field of view of this camera. Returns false if a border direction does not exist.
 bool cutToView(const RawCamera& raw, const Eigen::Matrix3d& R, Rectangle& view) {
   const double u1 = raw.pinhole.width - 1, v1 = raw.pinhole.height - 1;
   for (int i = 0; i <= kBorderSamples; ++i) {
@@ -71,14 +71,14 @@ StereoRectification rectifyStereo(const RawCamera& left, const RawCamera& right,
   const Vector3d half = 0.5 * logSo3(T_right_left.q());
   const Matrix3d left_half = expSo3(half).toRotationMatrix();              // R_middle_left
   const Matrix3d right_half = expSo3(Vector3d(-half)).toRotationMatrix();  // R_middle_right
-  // The right camera's centre seen from the left one, in axes half way between the two.
+  // Position of the right camera in the left one, in axes half way between the two.
   const Vector3d p_left_right = T_right_left.inverse().t();
   const Vector3d baseline = left_half * p_left_right;
   if (!(baseline.x() > 0.5 * baseline.norm()) || !(std::cos(2.0 * half.norm()) > kLeastCosine)) {
     throw UserError(where, "right camera at " + print(p_left_right) + " of the left optical frame",
-                    "on the right (x > 0) and looking the same way; are left and right swapped?");
+                    "on the right (x > 0) and with parallel axes; are left and right swapped?");
   }
-  // The smallest rotation that takes the baseline to the x axis.
+  // Smallest rotation that takes the baseline to the x axis.
   const Matrix3d align = Quaterniond::FromTwoVectors(baseline, Vector3d::UnitX()).toRotationMatrix();
 
   StereoRectification result;
@@ -87,7 +87,7 @@ StereoRectification rectifyStereo(const RawCamera& left, const RawCamera& right,
   Rectangle view;
   const bool followed = cutToView(left, result.R_left, view) && cutToView(right, result.R_right, view);
   if (!followed || !(view.right > view.left) || !(view.bottom > view.top)) {
-    throw UserError(where, "no view that both cameras share", "a calibration of two cameras that look the same way");
+    throw UserError(where, "no common view of both cameras", "a calibration of two cameras with overlapping views");
   }
   const double f = std::max((width - 1 + 2 * kInside) / (view.right - view.left),
                             (height - 1 + 2 * kInside) / (view.bottom - view.top));

@@ -7,7 +7,7 @@
 namespace urban_nav_core {
 namespace {
 
-// At a disparity below this a point lies beyond any use and its coordinates may overflow.
+// At smaller disparities a point is too far to be useful and its coordinates may overflow.
 constexpr double kLeastDisparity = 1e-9;  // px
 
 }  // namespace

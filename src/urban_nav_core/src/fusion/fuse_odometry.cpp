@@ -12,10 +12,11 @@ namespace urban_nav_core {
 
 namespace {
 
-constexpr StampNs kStretch = 1'000'000'000;  // ns: errors of the ends are then small
-constexpr double kConflict = 53.0;           // squared distance; 1e-9 of chi-square with 6 degrees of freedom
+constexpr StampNs kStretch = 1'000'000'000;  // ns: long enough that the errors of the end poses are small
+constexpr double kConflict = 53.0;           // squared Mahalanobis distance; 1e-9 of chi-square with 6 degrees of
+                                             // freedom
 
-/// Returns what the laser measured over each stereo step; nullopt where it did not.
+/// Returns the laser's motion over each stereo step; nullopt where it is unavailable.
 std::vector<std::optional<IntervalMotion>> motionsByLaser(const std::vector<RelativePose>& stereo,
                                                           const InterpolatedOdometry& laser) {
   std::vector<std::optional<IntervalMotion>> motions;
@@ -55,20 +56,20 @@ std::vector<Stretch> findStretches(const std::vector<RelativePose>& steps, const
   return stretches;
 }
 
-/// Combines the two motions of each step.
+/// Combines the stereo and laser motions of each step.
 class StepFusion {
  public:
   StepFusion(const SharedConstants& shared, double spread) : shared_(shared), spread_(spread) {}
 
-  /// `inflation`: of both covariances, at least 1. `laser`: null if stereo alone has measured the step.
+  /// `inflation`: factor on both covariances, at least 1. `laser`: null if only stereo has measured the step.
   RelativePose fuse(const RelativePose& step, const IntervalMotion& stereo, const IntervalMotion* laser,
                     StepSource source, double inflation) const {
     const double factor = spread_ * inflation;
     RelativePose fused = step;
     fused.source = "fused";
-    Matrix6d gain = Matrix6d::Zero();  // share of the laser
+    Matrix6d gain = Matrix6d::Zero();  // weight of the laser
     if (source == StepSource::Laser) gain.setIdentity();
-    // The gain is that of the drifts: errors of the ends cancel from step to step.
+    // The gain is computed from the drifts: errors of the end poses cancel from step to step.
     if (source == StepSource::Both)
       gain = SmallCholesky<6>(Matrix6d(stereo.drift + laser->drift)).solve(stereo.drift).transpose();
     const Matrix6d rest = Matrix6d::Identity() - gain;
@@ -90,7 +91,7 @@ class StepFusion {
   }
 
  private:
-  /// Independent errors of the jointly estimated constants, each of standard deviation 1.
+  /// Sets the jointly estimated constants as independent errors, each of standard deviation 1.
   static void setConstants(const Eigen::MatrixXd& sensitivity, RelativePose& fused) {
     fused.constants.clear();
     for (Eigen::Index k = 0; k < sensitivity.cols(); ++k)
@@ -101,11 +102,11 @@ class StepFusion {
   double spread_;
 };
 
-/// Returns the status of a step that one odometry has given in place of the other.
+/// Returns the status of a step measured by one of the two odometries only.
 Status fusedStatus(const Status& stereo, StepSource source) {
   if (source != StepSource::Laser) return stereo;
   return {Health::Degraded, stereo.reason,
-          "by LiDAR odometry alone" + (stereo.sentence.empty() ? "" : ": " + stereo.sentence)};
+          "by LiDAR odometry only" + (stereo.sentence.empty() ? "" : ": " + stereo.sentence)};
 }
 
 }  // namespace

@@ -12,14 +12,14 @@ namespace urban_nav_core {
 
 namespace {
 
-constexpr StampNs kLongestStep = 1'000'000'000;  // ns, of a step that is interpolated
+constexpr StampNs kLongestStep = 1'000'000'000;  // ns: longest step that is interpolated
 
-/// Returns the drift of a step: all of its covariance if the odometry states no drift.
+/// Returns the drift covariance of a step: its whole covariance if the odometry does not provide the drift.
 const Matrix6d& driftPart(const RelativePose& step) {
   return step.drift_covariance.isZero(0.0) ? step.covariance : step.drift_covariance;
 }
 
-/// Returns what the covariance of a step has beyond its drift, without negative eigenvalues.
+/// Returns the covariance of a step minus its drift, without negative eigenvalues.
 Matrix6d endPart(const RelativePose& step) {
   const SmallEigen<6> eigen = smallEigen<6>(Matrix6d(step.covariance - driftPart(step)));
   return eigen.vectors * eigen.values.cwiseMax(0.0).asDiagonal() * eigen.vectors.transpose();
@@ -71,7 +71,7 @@ std::optional<IntervalMotion> InterpolatedOdometry::over(StampNs from, StampNs t
   if (!a || !b) return std::nullopt;
   if (a->share == 1.0 && a->step + 1 < steps_.size()) a = Place{a->step + 1, 0.0};
   IntervalMotion motion;
-  std::vector<Pose> begins;  // T_from_begin of the overlapped steps
+  std::vector<Pose> begins;  // T_from_begin of the overlapping steps
   Pose T_from_end = interpolate(Pose(), steps_[a->step].T_from_to, a->share).inverse();
   for (std::size_t k = a->step; k <= b->step; ++k) {
     begins.push_back(T_from_end);

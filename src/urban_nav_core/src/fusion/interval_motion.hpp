@@ -9,7 +9,7 @@
 
 namespace urban_nav_core {
 
-/// Sensitivity of a motion to a constant; the value used enters multiplied by it, since steps differ in the value.
+/// Sensitivity of a motion to a constant, and its product with the value used, since steps differ in that value.
 struct ConstantShare {
   std::string name;
   Vector6d sensitivity = Vector6d::Zero();
@@ -19,24 +19,24 @@ struct ConstantShare {
 /// Motion of base_link between any two times of an odometry.
 struct IntervalMotion {
   Pose T_from_to;
-  Matrix6d covariance = Matrix6d::Zero();  ///< drift, and the errors of both ends
-  Matrix6d drift = Matrix6d::Zero();       ///< the part that adds up over consecutive intervals
+  Matrix6d covariance = Matrix6d::Zero();  ///< drift plus the errors of both end poses
+  Matrix6d drift = Matrix6d::Zero();       ///< part that adds up over consecutive intervals
   std::vector<ConstantShare> constants;
-  bool is_lost = false;  ///< contains a step that was not measured
+  bool is_lost = false;  ///< contains a step without measurement
 };
 
-/// Motion and covariance between any two times of a chain of steps. Drift grows evenly within a step; a time within a
-/// step is interpolated, with the error of unknown accelerations.
+/// Motion and covariance between any two times of a chain of steps. Drift grows linearly within a step; poses within a
+/// step are interpolated, with the error of unknown accelerations.
 class InterpolatedOdometry {
  public:
-  /// `steps`: in order of time, contiguous. They must outlive this object. Accelerations: m/s^2 and rad/s^2, one sigma.
+  /// `steps`: in order of time, contiguous; must outlive this object. Accelerations: m/s^2 and rad/s^2, one sigma.
   InterpolatedOdometry(const std::vector<RelativePose>& steps, double acceleration, double angular_acceleration);
 
-  /// Requires from < to. Returns nullopt outside the chain, and if an end is within a step longer than 1 s.
+  /// Returns the motion; nullopt outside the chain, and if an end is within a step longer than 1 s. Requires from < to.
   std::optional<IntervalMotion> over(StampNs from, StampNs to) const;
 
  private:
-  /// A time as a step and a share of it, 0...1.
+  /// Time as index of a step and fraction of it, 0...1.
   struct Place {
     std::size_t step = 0;
     double share = 0.0;

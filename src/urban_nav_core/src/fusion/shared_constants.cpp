@@ -12,14 +12,15 @@ namespace urban_nav_core {
 
 namespace {
 
-constexpr int kMounting = 3;             // constants of the mounting, which come first
-constexpr int kIterations = 8;           // reweighted Gauss-Newton; the problem is linear but for 2 deg of mounting
-constexpr double kHuber = 22.46;         // squared distance, 0.999 of chi-square with 6 degrees of freedom
-constexpr double kContradicted = 16.27;  // squared distance, 0.999 of chi-square with 3 degrees of freedom
-constexpr double kFixed = 1e-9;          // rad, prior of a mounting that is kept
+constexpr int kMounting = 3;             // number of mounting constants, which come first
+constexpr int kIterations = 8;           // reweighted Gauss-Newton; the problem is linear for mounting rotations of up
+                                         // to about 2 deg
+constexpr double kHuber = 22.46;         // squared Mahalanobis distance, 0.999 of chi-square with 6 degrees of freedom
+constexpr double kContradicted = 16.27;  // squared Mahalanobis distance, 0.999 of chi-square with 3 degrees of freedom
+constexpr double kFixed = 1e-9;          // rad, prior sigma of a mounting that is kept
 constexpr const char* kScaleName = "scale";
 
-/// Returns the rotation of the mounting about the place of the LiDAR.
+/// Returns the rotation of the mounting about the position of the LiDAR.
 Pose mountingChange(const Vector3d& phi, const Vector3d& p_base_lidar) {
   const Quaterniond turn = expSo3(phi);
   return Pose(turn, p_base_lidar - turn * p_base_lidar);
@@ -33,7 +34,8 @@ SharedConstants::SharedConstants(std::vector<Stretch>& stretches, const std::vec
     : p_base_lidar_(p_base_lidar), names_({"mounting_x", "mounting_y", "mounting_z"}) {
   prior_ = Eigen::VectorXd::Zero(kMounting);
   prior_sigma_ = Eigen::VectorXd::Constant(kMounting, options.mounting_sigma);
-  const double scale_sigma = stretches.empty() ? 0.0 : options.scale_sigma;  // nothing compares it with the laser's
+  const double scale_sigma = stretches.empty() ? 0.0 : options.scale_sigma;  // without overlap the scale is
+                                                                             // unobservable
   addPriors(stereo, scale_sigma);
   addPriors(laser, 0.0);
   value_ = prior_;
@@ -58,7 +60,7 @@ void SharedConstants::keepMounting(std::vector<Stretch>& stretches) {
 }
 
 void SharedConstants::addPriors(const std::vector<RelativePose>& steps, double scale_sigma) {
-  // The newest step knows most.
+  // The newest step has the most recent estimate of its constants.
   for (auto step = steps.rbegin(); step != steps.rend(); ++step)
     for (const ConsideredConstant& constant : step->constants) {
       if (index(constant.name)) continue;
@@ -111,7 +113,7 @@ Eigen::MatrixXd SharedConstants::laserSensitivity(const IntervalMotion& motion) 
   Eigen::MatrixXd sensitivity = Eigen::MatrixXd::Zero(6, value_.size());
   addConstants(motion, sensitivity);
   const Pose turned = correctedLaser(motion);
-  Eigen::Matrix<double, 6, kMounting> twist;  // rotation about the place of the LiDAR
+  Eigen::Matrix<double, 6, kMounting> twist;  // rotation about the position of the LiDAR
   twist << skew(p_base_lidar_), Matrix3d::Identity();
   sensitivity.leftCols<kMounting>() = boxFromLeft(turned) * (Matrix6d::Identity() - adjoint(turned)) * twist;
   return sensitivity;

@@ -11,33 +11,33 @@
 
 namespace urban_nav_core {
 
-/// A stretch in which both odometries measured the same motion.
+/// Interval in which both odometries measured the motion.
 struct Stretch {
   std::size_t first_step = 0, end_step = 0;  ///< [first, end) in the stereo chain
   StampNs from = 0, to = 0;
   IntervalMotion stereo, laser;
-  double statistic = 0.0;  ///< squared Mahalanobis distance after the constants are known
+  double statistic = 0.0;  ///< squared Mahalanobis distance at the estimated constants
 };
 
-/// The constants that both odometries share: rotation of the LiDAR's mounting (3), those of the stereo chain, those of
-/// the laser chain, with their joint estimate from all stretches.
+/// Constants common to both odometries: rotation of the LiDAR's mounting (3), those of the stereo chain, those of the
+/// laser chain; with their joint estimate from all intervals.
 class SharedConstants {
  public:
-  /// Estimates the constants by least squares with priors, stretches in conflict weighted down, and sets their
-  /// statistics.
+  /// Estimates the constants by least squares with priors, with robust weights for conflicting intervals, and sets the
+  /// statistics of the intervals.
   SharedConstants(std::vector<Stretch>& stretches, const std::vector<RelativePose>& stereo,
                   const std::vector<RelativePose>& laser, const Vector3d& p_base_lidar, const FusionOptions& options);
 
-  /// Returns the motion by stereo with the estimated constants, and its change per constant.
+  /// Returns the stereo motion corrected by the estimated constants; its Jacobian by the constants is separate.
   Pose correctedStereo(const IntervalMotion& motion) const;
   Eigen::MatrixXd stereoSensitivity(const IntervalMotion& motion) const;
-  /// The same two for the laser.
+  /// Returns the laser motion corrected by the estimated constants; its Jacobian by the constants is separate.
   Pose correctedLaser(const IntervalMotion& motion) const;
   Eigen::MatrixXd laserSensitivity(const IntervalMotion& motion) const;
 
-  /// Joint covariance of the constants, and L with L L^T equal to it.
+  /// Return L with L L^T equal to the joint covariance of the constants.
   const Eigen::MatrixXd& factor() const { return factor_; }
-  /// Mean squared distance over degrees of freedom, at least 1.
+  /// Returns the mean squared distance per degree of freedom, at least 1.
   double spread() const { return spread_; }
   std::vector<SharedConstant> list() const;
 
@@ -47,14 +47,14 @@ class SharedConstants {
   Pose applyConstants(const IntervalMotion& motion, const Pose& measured) const;
   void addConstants(const IntervalMotion& motion, Eigen::MatrixXd& sensitivity) const;
   void estimate(std::vector<Stretch>& stretches);
-  /// Keeps the mounting as given, with the uncertainty that the comparison leaves it, unless that contradicts it.
+  /// Keeps the given mounting, with the posterior uncertainty of the comparison, unless the comparison contradicts it.
   void keepMounting(std::vector<Stretch>& stretches);
 
   Vector3d p_base_lidar_;
   std::vector<std::string> names_;
   Eigen::VectorXd prior_, prior_sigma_, value_;
   Eigen::MatrixXd covariance_, factor_;
-  Eigen::VectorXd measured_;  ///< before the mounting was kept
+  Eigen::VectorXd measured_;  ///< estimate before the mounting was fixed
   bool keeps_mounting_ = false;
   double spread_ = 1.0;
 };

@@ -10,7 +10,7 @@ Matrix6d blocks(const Matrix3d& tt, const Matrix3d& tr, const Matrix3d& rr) {
   return M;
 }
 
-// Rounding must not make a covariance lopsided: thousands of products are taken along a trajectory.
+// Keeps covariances symmetric despite rounding: thousands of products are computed along a trajectory.
 Matrix6d moved(const Matrix6d& J, const Matrix6d& covariance) {
   const Matrix6d M = J * covariance * J.transpose();
   return 0.5 * (M + M.transpose());

@@ -23,7 +23,7 @@ Matrix6d twice(const Matrix3d& R) {
 
 }  // namespace
 
-// Exp(rho, phi) T moves the origin of b by rho + phi x t; the box moves it by rho alone.
+// Exp(rho, phi) T moves the origin of b by rho + phi x t; the box tangent moves it by rho only.
 Matrix6d boxFromLeft(const Pose& T_a_b) { return withCoupling(-skew(T_a_b.t())); }
 Matrix6d leftFromBox(const Pose& T_a_b) { return withCoupling(skew(T_a_b.t())); }
 Matrix6d boxFromRight(const Pose& T_a_b) { return twice(T_a_b.R()); }
@@ -63,7 +63,7 @@ PoseWithCovariance relativeToFirst(const PoseWithCovariance& T_odom_base, const 
 
 Matrix6d covarianceForDisplay(const Matrix6d& information, double length) {
   constexpr double kFreeTranslation = 1e6, kFreeRotation = 10.0, kSingular = 1e-9;
-  Vector6d unit;  // in these units the six directions compare
+  Vector6d unit;  // scales that make the six directions comparable
   unit << Vector3d::Constant(length), Vector3d::Ones();
   const auto eigen = symmetricEigen(Eigen::MatrixXd(unit.asDiagonal() * information * unit.asDiagonal()));
   Matrix6d covariance = Matrix6d::Zero();

@@ -12,10 +12,10 @@ namespace {
 
 using Eigen::Index;
 
-// Columns of a panel: eight columns of L stay in registers and the first cache while the rest of a row streams by.
+// Columns per panel: eight columns of L stay in registers and L1 cache while the rest of a row is streamed.
 constexpr Index kPanel = 8;
 
-// The lower triangle of one diagonal block, column by column.
+// Factorises one diagonal block, column by column.
 bool factorPanel(MatrixRef D) {
   for (Index j = 0; j < D.cols(); ++j) {
     const Index below = D.rows() - j;
@@ -43,8 +43,8 @@ bool choleskyInPlace(MatrixRef A) {
   return true;
 }
 
-// Rank-four steps over columns: unit stride, vectorised, and without the temporary that Eigen's own products take from
-// the heap.
+// Rank-four updates over columns: unit stride, vectorised, and without the heap-allocated temporary of Eigen's
+// products.
 void subtractOuterInPlace(MatrixRef C, const ConstMatrixRef& A) {
   assert(C.rows() == C.cols() && A.rows() == C.rows());
   constexpr Index kSteps = 4;
@@ -115,7 +115,7 @@ std::optional<Eigen::MatrixXd> invertPositiveDefinite(const ConstMatrixRef& A) {
 
 std::optional<Eigen::MatrixXd> solveSymmetric(const ConstMatrixRef& A, const ConstMatrixRef& B) {
   if (!A.allFinite() || !B.allFinite()) return std::nullopt;
-  // Complete pivoting: an LDLT of diagonal pivots alone fails on indefinite matrices such as [0 1; 1 0].
+  // Complete pivoting: LDLT with diagonal pivots fails on indefinite matrices such as [0 1; 1 0].
   const Eigen::MatrixXd full = A.selfadjointView<Eigen::Lower>();
   const Eigen::FullPivLU<Eigen::MatrixXd> lu(full);
   if (!lu.isInvertible()) return std::nullopt;

@@ -12,7 +12,7 @@ namespace urban_nav_core::kernels {
 
 namespace {
 
-// Vectors of the compiler's own, so that one text serves every width.
+// GCC vector types, so that one source serves every width.
 struct Narrow {
   typedef double Vector __attribute__((vector_size(16), aligned(8)));
   static constexpr int kLanes = 2, kVectors = 2, kColumns = 4;
@@ -67,7 +67,7 @@ __attribute__((always_inline)) inline void subtractStripsAs(double* C, int strid
                       packed + i * size + r, packed + j * size + c, depth);
 }
 
-// Four vectors at a time, for a sum must wait for the one before.
+// Four independent vector accumulators, because each sum depends on the previous one.
 template <typename Width, int several>
 __attribute__((always_inline)) inline void solveAs(double* X, std::ptrdiff_t apart, int depth, const double* L,
                                                    const double* inverse) {
@@ -97,7 +97,7 @@ __attribute__((always_inline)) inline void solveStripsAs(double* packed, int cou
   }
 }
 
-// Sixteen sums side by side, whatever the width.
+// Sixteen partial sums, independent of the vector width.
 template <typename Width>
 __attribute__((always_inline)) inline double dotAs(const double* a, const double* b, int n) {
   using Vector = typename Width::Vector;
@@ -127,13 +127,13 @@ __attribute__((always_inline)) inline double dotAs(const double* a, const double
   return ((each[0] + each[4]) + (each[2] + each[6])) + ((each[1] + each[5]) + (each[3] + each[7])) + rest;
 }
 
-// Eight sums of each, whatever the width: a passes once.
+// Eight partial sums for each product, independent of the vector width; `a` is read once.
 template <typename Width>
 __attribute__((always_inline)) inline void dotSixAs(const double* a, const double* b, std::ptrdiff_t stride, int n,
                                                     double* products) {
   using Vector = typename Width::Vector;
   constexpr int kSums = 8, kVectors = kSums / Width::kLanes,
-                kTogether = Width::kLanes == 2 ? 3 : 6;  // as many as there are registers for
+                kTogether = Width::kLanes == 2 ? 3 : 6;  // limited by the number of registers
   for (int first = 0; first < 6; first += kTogether) {
     Vector sum[kTogether][kVectors];
 #pragma GCC unroll 6
@@ -214,15 +214,15 @@ template <typename Width>
 __attribute__((always_inline)) inline void subtractEightAs(double* Y, int rows, const double* L,
                                                            std::ptrdiff_t row_step, std::ptrdiff_t column_step,
                                                            const double* X, int columns) {
-  constexpr int kTogether = Width::kLanes;  // as many as there are registers for
+  constexpr int kTogether = Width::kLanes;  // limited by the number of registers
   int r = 0;
   for (; r + kTogether <= rows; r += kTogether)
     subtractEightRows<Width, kTogether>(Y + r * 8, L + r * row_step, row_step, column_step, X, columns);
   for (; r < rows; ++r) subtractEightRows<Width, 1>(Y + r * 8, L + r * row_step, row_step, column_step, X, columns);
 }
 
-// One function of each kind for every width; only so can a compiler know what processor it is for.
-// NOLINTBEGIN(bugprone-macro-parentheses): names of types, and attributes, stand in none.
+// One function of each kind per width: the target processor is an attribute of the function.
+// NOLINTBEGIN(bugprone-macro-parentheses): type names and attributes cannot be in parentheses
 #define URBAN_NAV_KERNELS(Width, target)                                                                         \
   target void subtractStrips##Width(double* C, int stride, const double* packed, int count, int depth) {         \
     subtractStripsAs<Width>(C, stride, packed, count, depth);                                                    \

@@ -37,7 +37,7 @@ Geodetic LocalTangent::toGeodetic(const Vector3d& local) const {
   const double across = std::hypot(p.x(), p.y());
   Geodetic at;
   at.longitude = std::atan2(p.y(), p.x());
-  // Bowring (1976): one step from the reduced latitude is exact to nanometres near the ground.
+  // Bowring (1976): one iteration from the reduced latitude is exact to nanometres near the ground.
   const double minor = kEarthRadius * (1.0 - kFlattening);
   const double reduced = std::atan2(p.z() * kEarthRadius, across * minor);
   const double s = std::sin(reduced), c = std::cos(reduced);

@@ -11,8 +11,8 @@
 namespace urban_nav_core {
 namespace {
 
-// Newton's iteration for the orthogonal factor of the polar decomposition: quadratic, four steps from 1e-1 to the last
-// bit.
+// Newton's iteration for the orthogonal factor of the polar decomposition: quadratic convergence, four steps from 1e-1
+// to machine precision.
 Matrix3d nearestRotation(const Matrix3d& R) {
   constexpr int kSteps = 5;
   Matrix3d X = R;
@@ -20,8 +20,8 @@ Matrix3d nearestRotation(const Matrix3d& R) {
   return X;
 }
 
-// Normalising what is normalised would turn the last bit to and fro. The bound is above the rounding of a
-// normalisation, so doing it twice is doing it once.
+// Normalising a normalised quaternion could alter its last bit. The bound is above the rounding error of a
+// normalisation, which makes it idempotent.
 Quaterniond unit(const Quaterniond& q) {
   constexpr double kRounding = 1e-15;
   return std::abs(q.squaredNorm() - 1.0) <= kRounding ? q : q.normalized();

@@ -3,9 +3,8 @@
 
 #include <cmath>
 
-/// The quotients of trigonometric functions in the Jacobians of SO(3). Each is a difference of nearly equal
-/// numbers at small angles, where its Taylor series is used instead; the limits are where both are exact to about
-/// 1e-13.
+/// Quotients of trigonometric functions in the Jacobians of SO(3). At small angles each is a difference of nearly equal
+/// numbers and is replaced by its Taylor series; at the thresholds both are exact to about 1e-13.
 namespace urban_nav_core::series {
 
 template <int N>

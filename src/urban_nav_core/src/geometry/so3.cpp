@@ -22,8 +22,8 @@ Quaterniond expSo3(const Vector3d& phi) {
 Vector3d logSo3(const Quaterniond& q) {
   double w = q.w();
   Vector3d v = q.vec();
-  // q and -q are one rotation. At exactly half a turn both axes are right: the first coordinate that is not zero
-  // decides.
+  // q and -q are the same rotation. At exactly half a turn both axes are valid: the sign of the first non-zero
+  // coordinate selects one.
   const auto pointsBack = [&v] {
     for (int i = 0; i < 3; ++i) {
       if (v[i] != 0.0) return v[i] < 0.0;
@@ -35,7 +35,7 @@ Vector3d logSo3(const Quaterniond& q) {
     v = -v;
   }
   const double n = v.norm();
-  if (n < 1e-8 * w) return (2.0 / w) * v;  // the next term is n^2 / (3 w^2), under the last bit
+  if (n < 1e-8 * w) return (2.0 / w) * v;  // the next term, n^2 / (3 w^2), is below machine precision
   return (2.0 * std::atan2(n, w) / n) * v;
 }
 

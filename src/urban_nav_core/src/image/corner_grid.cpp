@@ -22,7 +22,7 @@ void CornerGrid::assign(const std::vector<Corner>& corners, int width, int heigh
     assert(corner.u >= 0 && corner.v >= 0 && corner.u < width_ && corner.v < height_);
     return static_cast<std::size_t>((corner.v / cell_) * columns_ + corner.u / cell_);
   };
-  // A counting sort that leaves starts_[c] at the begin of cell c: counts are kept two places on, then one place on.
+  // Counting sort with counts stored at offset 2, which leaves starts_[c] at the beginning of cell c.
   starts_.assign(static_cast<std::size_t>(columns_ * rows_) + 2, 0);
   for (const Corner& corner : corners) ++starts_[cell(corner) + 2];
   for (std::size_t c = 2; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];

@@ -13,7 +13,7 @@ constexpr int kShrunkBlock = 12;  // shrunk columns
 constexpr int kBlockRows = 4;
 constexpr int kLongestReach = 200;  // shrunk columns
 
-// Sums over `kShrink` neighbours of a row, from a shrunk column on: a cheap low-pass filter along the row.
+// Sums over `kShrink` adjacent pixels of a row from a shrunk column on: a cheap low-pass filter.
 void shrinkRows(const ImageView& image, int v, int column, int count, int* out) {
   for (int r = 0; r < kBlockRows; ++r) {
     const std::uint8_t* p = image.row(v + 2 * r) + column * kShrink;
@@ -21,7 +21,7 @@ void shrinkRows(const ImageView& image, int v, int column, int count, int* out) 
   }
 }
 
-// Cost of a block beside another, whose rows are `stride` apart; the mean is removed, so exposure does not matter.
+// Difference of two blocks whose rows are `stride` apart; mean-removed, hence independent of exposure.
 int difference(const int* a, const int* b, int stride) {
   constexpr int kCount = kShrunkBlock * kBlockRows;
   int values[kCount];
@@ -62,7 +62,7 @@ bool looksExchanged(const ImageView& left, const ImageView& right) {
       const int opposite =
           found > 0 ? *std::min_element(costs, costs + reach + 1) : *std::min_element(costs + reach, end);
       const int worst = *std::max_element(costs, end);
-      // Only blocks with texture, whose best shift is clear of zero and clearly better than any of the other sign.
+      // Requires texture and a best shift that is clearly non-zero and clearly better than any of the other sign.
       if (worst < 40 * kShrunkBlock * kBlockRows || found == 0 || 3 * *best > 2 * opposite) continue;
       (found > 0 ? usual : exchanged)++;
     }

@@ -23,7 +23,7 @@ struct ScoreRows {
 #if CV_SIMD128
 using cv::v_uint8x16;
 
-/// Bit i is set where the score of pixel i is above zero and, if asked, a local maximum.
+/// Returns a mask: bit i is set if the score of pixel i is positive and, if requested, a local maximum.
 inline int keptOfSixteen(const ScoreRows& rows, int u, bool suppress) {
   const v_uint8x16 zero = cv::v_setzero_u8();
   const v_uint8x16 score = cv::v_load(rows.here + u);

@@ -8,8 +8,7 @@
 #define URBAN_NAV_X86 1
 #endif
 
-// Vectors wider than the baseline's are handed between functions that are all inlined: there is no call whose ABI
-// could change.
+// Vectors wider than those of the baseline are passed only between inlined functions, so no call depends on the ABI.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace urban_nav_core::fast_score {
@@ -20,7 +19,7 @@ constexpr int kCircle = 16;
 constexpr int kCircleU[kCircle] = {0, 1, 2, 3, 3, 3, 2, 1, 0, -1, -2, -3, -3, -3, -2, -1};
 constexpr int kCircleV[kCircle] = {3, 3, 2, 1, 0, -1, -2, -3, -3, -3, -2, -1, 0, 1, 2, 3};
 
-// Vectors of the compiler's own, so that one text serves every width.
+// GCC vector types, so that one source serves every width.
 struct Narrow {
   typedef std::uint8_t Vector __attribute__((vector_size(16)));
   static constexpr int kLanes = 16;
@@ -51,8 +50,7 @@ URBAN_NAV_INLINE V load(const std::uint8_t* p) {
   return v;
 }
 
-/// The lesser or the greater, turned round where dark arcs are looked for: the least of the greatest is found as is
-/// the greatest of the least.
+/// Minimum and maximum, exchanged for dark arcs: the smallest maximum is computed like the largest minimum.
 template <bool dark, typename V>
 URBAN_NAV_INLINE V lower(const V& a, const V& b) {
   return dark ? most(a, b) : least(a, b);
@@ -62,8 +60,9 @@ URBAN_NAV_INLINE V upper(const V& a, const V& b) {
   return dark ? least(a, b) : most(a, b);
 }
 
-/// The grey level that nine neighbours on the circle all reach: max over arcs of min over the arc (dark: min of max).
-/// Arcs that begin at k - 1 and at k, k odd, share eight places, so eight minima of eight serve all sixteen.
+/// Returns the largest grey level that nine contiguous pixels of the circle all reach: max over arcs of min over the
+/// arc (dark: min of max). Arcs that begin at k - 1 and at k, k odd, share eight pixels, so eight minima of eight
+/// pixels are sufficient for sixteen arcs.
 template <bool dark, typename V>
 URBAN_NAV_INLINE V bestArc(const V* p) {
   V pair[8], quad[8];
@@ -79,15 +78,15 @@ URBAN_NAV_INLINE V bestArc(const V* p) {
   return best;
 }
 
-/// Grey levels less one another where that is positive: what comes of the arcs is compared, not every pixel.
+/// Saturated differences: the extrema of the arcs are compared with the centre, not every pixel.
 template <typename V>
 URBAN_NAV_INLINE V computeScore(const V* circle, const V& centre, const V& threshold) {
   const V score = most(excess(bestArc<false>(circle), centre), excess(centre, bestArc<true>(circle)));
   return score > threshold ? score : V{};
 }
 
-/// Any nine neighbours on the circle hold four of its even places in a row, among them two neighbouring points of the
-/// compass. `even`: those places, of which the first test needs every other one.
+/// Necessary conditions: nine contiguous pixels of the circle include four consecutive even positions, among them two
+/// adjacent compass points. `even`: pixels at the even positions; the first test uses every other one.
 template <bool dark, typename V>
 URBAN_NAV_INLINE V twoOfTheCompass(const V* even) {
   return lower<dark>(upper<dark>(even[0], even[4]), upper<dark>(even[2], even[6]));
@@ -112,7 +111,7 @@ URBAN_NAV_INLINE bool any(const V& v) {
   return all != 0;
 }
 
-/// Few pixels stand the test of the even places, and they stand alone: so they are gathered from their row and scored
+/// Few pixels, mostly isolated, pass the test of the even positions: they are gathered from their row and scored
 /// together.
 template <typename Width>
 struct Gathered {
@@ -163,7 +162,7 @@ URBAN_NAV_INLINE bool scoreRowAs(const std::uint8_t* row, std::ptrdiff_t stride,
         for (; u < end; ++u) gather(u);
         break;
       }
-      u = end - kLanes;  // some pixels twice, rather than bytes after the row
+      u = end - kLanes;  // processes some pixels twice instead of reading beyond the row
     }
     const std::uint8_t* pixel = row + u;
     const V centre = load<V>(pixel);

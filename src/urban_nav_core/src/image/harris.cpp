@@ -11,12 +11,12 @@ struct Sums {
   int uu, uv, vv;
 };
 
-// Sums of Sobel's values: each at most 49 * 1020^2, well inside 32 bits.
+// Sums of products of Sobel responses: each at most 49 * 1020^2, well within 32 bits.
 #if CV_SIMD128
 using cv::v_int16x8;
 using cv::v_int32x4;
 
-/// Smoothed (1 2 1) and differentiated (1 0 -1) along a row, in the window's seven columns; the eighth lane is waste.
+/// Filters a row by (1 2 1) and (1 0 -1) in the seven columns of the window; the eighth lane is unused.
 struct RowFilters {
   v_int16x8 smooth, slope;
 };

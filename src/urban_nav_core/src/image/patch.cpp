@@ -18,10 +18,11 @@ namespace {
 using cv::v_float32x4;
 
 constexpr double kWindowSigma = 3.0;  // px
-constexpr int kPhases = 256;          // of the spline's table: 1/512 px at most beside the exact phase
+constexpr int kPhases = 256;          // of the spline's table: at most 1/512 px from the exact phase
 constexpr double kOwnBlur =
     1.0 / 3.0 + 0.25;  // px^2, variance of the spline and of a usual lens (0.5 px), along each axis
-constexpr double kLeastBlurTap = 0.01, kLargestBlurTap = 0.33;  // the largest is a scale of 1.46
+constexpr double kLeastBlurTap = 0.01, kLargestBlurTap = 0.33;  // px^2, variance of the spline and of a typical lens
+                                                                // (0.5 px), along each axis
 constexpr double kMinScale = 0.4, kMaxScale = 2.5;
 constexpr int kMaxIterations = 12;
 constexpr double kSettledStep = 0.003;  // px
@@ -47,7 +48,7 @@ double sum(const v_float32x4& a) { return static_cast<double>(cv::v_reduce_sum(a
 
 constexpr std::size_t kTaps = patch_read::kTaps;
 
-/// The spline's weights at a phase, spread by (blur, 1 - 2 blur, blur).
+/// Returns the spline's weights at a phase, convolved with (blur, 1 - 2 blur, blur).
 std::array<float, kTaps> blurredSpline(double f, double blur) {
   const std::array<float, 4> w = spline(f);
   const float side = static_cast<float>(blur), middle = static_cast<float>(1.0 - 2.0 * blur);
@@ -60,10 +61,11 @@ std::array<float, kTaps> blurredSpline(double f, double blur) {
   return made;
 }
 
-constexpr int kWideSize = kPatchSize + 4, kWideStride = 16;  // one for the gradient, one for the blur
+constexpr int kWideSize = kPatchSize + 4, kWideStride = 16;  // margins of one pixel for the gradient and one for the
+                                                             // blur
 using WideGrid = std::array<float, kWideSize * kWideStride>;
 
-/// Sixteen taps at once: pixels about (u, v), weighed by the table's lines of two phases.
+/// Weights sixteen taps at once: pixels about (u, v) by the table rows of two phases.
 v_float32x4 weighed(const float* p, const float* wx, const float* wy) {
   constexpr int kStride = PatchSource::kStride;
   const v_float32x4 y = cv::v_load_aligned(wy);
@@ -74,7 +76,7 @@ v_float32x4 weighed(const float* p, const float* wx, const float* wy) {
   return column * cv::v_load_aligned(wx);
 }
 
-/// The source as the view has it, at least `margin` (1 or 2) pixels wider than the window on each side.
+/// Warps the source into the view, with a margin of `margin` (1 or 2) pixels around the window.
 void warpWide(const PatchSource& source, const PatchWarp& warp, int margin, WideGrid& out) {
   using cv::v_int32x4;
   constexpr int kStride = PatchSource::kStride;
@@ -119,7 +121,7 @@ void warpWide(const PatchSource& source, const PatchWarp& warp, int margin, Wide
   }
 }
 
-/// Spreads by (blur, 1 - 2 blur, blur) along rows (step 1) or columns (step kWideStride); the outermost pixels stay.
+/// Convolves with (blur, 1 - 2 blur, blur) along rows (step 1) or columns (step kWideStride), except at the border.
 void blurWide(double blur, std::size_t step, WideGrid& grid) {
   const float side = static_cast<float>(blur), middle = static_cast<float>(1.0 - 2.0 * blur);
   const WideGrid before = grid;
@@ -134,8 +136,8 @@ void blurWide(double blur, std::size_t step, WideGrid& grid) {
 constexpr int kSpreadRows = kPatchSize + 2, kSpreadStride = 24, kSpreadMargin = 4;
 using SpreadGrid = std::array<float, kSpreadRows * kSpreadStride>;
 
-/// A filter spread by (1 4 1)/6 along columns, with zeros left and right of it. All of it is written before any is read
-/// across: a load that meets two stores under way has to wait for both.
+/// Convolves a filter with (1 4 1)/6 along columns and pads it with zeros left and right. All stores precede the loads
+/// along rows, because a load that overlaps two pending stores stalls.
 void spreadAlongColumns(const PatchGrid& filter, SpreadGrid& out) {
   static constexpr float kZeros[kPatchStride] = {};
   const auto row = [&](int j) {
@@ -155,7 +157,8 @@ void spreadAlongColumns(const PatchGrid& filter, SpreadGrid& out) {
   }
 }
 
-/// Covariance of the products of two filters with the smoothed image, for white noise of one grey level in the image.
+/// Returns the covariance of two filter responses to the smoothed image, for white noise of one grey level in the
+/// image.
 Eigen::Matrix2d noiseThroughSpline(const PatchGrid& fx, const PatchGrid& fy) {
   SpreadGrid x, y;
   spreadAlongColumns(fx, x);
@@ -164,7 +167,7 @@ Eigen::Matrix2d noiseThroughSpline(const PatchGrid& fx, const PatchGrid& fy) {
   v_float32x4 xx = cv::v_setzero_f32(), xy = xx, yy = xx;
   for (std::size_t j = 0; j < x.size(); j += kSpreadStride)
 #pragma GCC unroll 4
-    for (std::size_t i = j; i < j + 16; i += 4) {  // from two left of the filter to two right of it
+    for (std::size_t i = j; i < j + 16; i += 4) {  // from two columns left of the filter to two right of it
       const v_float32x4 a = side * (cv::v_load(&x[i + 1]) + cv::v_load(&x[i + 3])) + middle * cv::v_load(&x[i + 2]);
       const v_float32x4 b = side * (cv::v_load(&y[i + 1]) + cv::v_load(&y[i + 3])) + middle * cv::v_load(&y[i + 2]);
       xx += a * a;
@@ -176,7 +179,7 @@ Eigen::Matrix2d noiseThroughSpline(const PatchGrid& fx, const PatchGrid& fy) {
   return made;
 }
 
-/// Value and central differences out of the wide grid.
+/// Extracts value and central differences from the wide grid.
 void split(const WideGrid& wide, PatchTemplate& made, Gradients& gradients) {
   const v_float32x4 half = cv::v_setall_f32(0.5F);
   for (int j = 0; j < kPatchSize; ++j)
@@ -224,7 +227,7 @@ bool fits(const ImageView& image, double x, double y) {
 void readWindow(const ImageView& image, double x, double y, const Eigen::Vector2d& blur, PatchGrid& out) {
   const int u = static_cast<int>(x), v = static_cast<int>(y);
   const std::array<float, kTaps> wx = blurredSpline(x - u, blur.x()), wy = blurredSpline(y - v, blur.y());
-  const bool blurs = blur.maxCoeff() > 0.0;  // else the outer weights are zero
+  const bool blurs = blur.maxCoeff() > 0.0;  // otherwise the outer weights are zero
   patch_read::fastest().read(image.row(v - kPatchRadius - 2) + u - kPatchRadius - 2, image.stride, wx.data(), wy.data(),
                              blurs, out.data());
 }
@@ -247,7 +250,8 @@ bool makeTemplate(const PatchSource& source, const PatchWarp& warp, PatchTemplat
   if (!(scale2 > kMinScale * kMinScale && scale2 < kMaxScale * kMaxScale) || !(warp.bend.norm() <= kLargestBend))
     return false;
   WideGrid wide{};
-  // A template seen larger is more blurred than the view, one seen smaller less: at a corner, blur moves the place.
+  // An enlarged template is more blurred than the view, a reduced one less. Unequal blur shifts the position of a
+  // corner.
   const Eigen::Vector2d excess = 0.5 * kOwnBlur * ((A * A.transpose()).diagonal().array() - 1.0).matrix();
   const Eigen::Vector2d own = (-excess).cwiseMax(0.0).cwiseMin(kLargestBlurTap);
   made.view_blur = (excess.array() > kLeastBlurTap).select(excess.array().min(kLargestBlurTap), 0.0).matrix();
@@ -297,20 +301,20 @@ double computeCorrelation(const Reading& reading, const PatchTemplate& patch) {
   return reading.gain * std::sqrt(patch.energy / std::max(reading.variance, 1e-9));
 }
 
-/// Noise of a pixel, correlation and covariance from the residual that is left at the minimum.
+/// Computes pixel noise, correlation and covariance from the residual at the minimum.
 void judge(const Reading& reading, const PatchTemplate& patch, Alignment& alignment) {
   const double g = reading.gain, explained = g * g * patch.energy;
   alignment.gain = g;
   alignment.correlation = computeCorrelation(reading, patch);
-  // 4 of about 57 / 2 independent weighted values were spent on position, offset and gain
+  // 4 of about 57 / 2 independent weighted values determine position, offset and gain
   const double residual = std::max(reading.variance - explained, 0.0) * 1.15;
-  // (b, 1 - 2 b, b) leaves 1 - 4 b + 6 b^2 of white noise; of noise that is smooth already, about the root of that
+  // (b, 1 - 2 b, b) leaves 1 - 4 b + 6 b^2 of the variance of white noise; of smoothed noise about the square root
   const auto left = [](double tap) { return std::sqrt(1.0 - 4.0 * tap + 6.0 * tap * tap); };
   const double view_noise = kSmoothedNoise * std::sqrt(left(patch.view_blur.x()) * left(patch.view_blur.y()));
   const double noise2 = residual / (view_noise + g * g * kSmoothedNoise);
   alignment.noise = std::sqrt(noise2);
   alignment.covariance =
-      patch.unit_covariance * (std::max(noise2, 1.0 / 12.0) / (g * g));  // no better than rounding to grey levels
+      patch.unit_covariance * (std::max(noise2, 1.0 / 12.0) / (g * g));  // at least the rounding error of grey levels
 }
 
 }  // namespace

@@ -11,12 +11,12 @@ namespace urban_nav_core {
 namespace {
 
 constexpr int kSize = PatchSource::kSize, kStride = PatchSource::kStride;
-constexpr int kReach = 3;  // px: three standard deviations of the most
+constexpr int kReach = 3;  // px: three standard deviations of the largest blur
 constexpr double kLeastVariance = 0.02;
 
 using Grid = std::array<float, static_cast<std::size_t>(kSize* kStride)>;
 
-/// Along rows (step 1) or columns (step stride); beyond the border the last pixel is repeated.
+/// Convolves along rows (step 1) or columns (step stride); beyond the border the last pixel is repeated.
 void spread(double variance, int step, Grid& grid) {
   if (!(variance > kLeastVariance)) return;
   std::array<float, 2 * kReach + 1> weight;

@@ -12,7 +12,7 @@ namespace {
 using vectors::load;
 using vectors::store;
 
-// One text serves every width.
+// One source serves every width.
 struct Narrow {
   typedef float Floats __attribute__((vector_size(16)));
   static constexpr int kLanes = 4;
@@ -24,7 +24,7 @@ struct Middle {
 
 constexpr int kLine = 12, kWide = 16, kPadded = 24;
 
-/// Six taps, `apart` numbers from one to the next; four where nothing is blurred.
+/// Convolves with six taps at distance `apart`; with four if there is no blur.
 template <typename V>
 URBAN_NAV_INLINE V filtered(const float* p, int apart, const float* w, bool blurs) {
   V value = w[1] * load<V>(p + apart) + w[2] * load<V>(p + 2 * apart) +
@@ -50,7 +50,7 @@ URBAN_NAV_INLINE void readAs(const std::uint8_t* first, std::ptrdiff_t stride, c
       cv::v_store_aligned(pixels + i * kWide + 8 * k + 4, cv::v_cvt_f32(cv::v_reinterpret_as_s32(high)));
     }
   }
-  alignas(32) float column[kRows * kPadded];  // what is beyond 16 meets the padding alone
+  alignas(32) float column[kRows * kPadded];  // values beyond 16 are multiplied by padding only
   for (int i = 0; i < kRows; ++i) {
 #pragma GCC unroll 4
     for (int k = 0; k < kWide; k += kLanes)
@@ -68,7 +68,7 @@ URBAN_NAV_INLINE void readAs(const std::uint8_t* first, std::ptrdiff_t stride, c
   }
 }
 
-/// Eight sums side by side, whatever the width.
+/// Eight partial sums, independent of the vector width.
 template <typename Width>
 struct Eight {
   typename Width::Floats part[8 / Width::kLanes];
@@ -99,7 +99,7 @@ URBAN_NAV_INLINE Sums measureAs(const float* window, const float* weight, const 
       q.part[k] += weighted * p;
     }
   Sums sums{total<Width>(x), total<Width>(y), total<Width>(g), total<Width>(m), total<Width>(q)};
-  for (int i = kCount / 8 * 8; i < kCount - 1; ++i) {  // the last is padding
+  for (int i = kCount / 8 * 8; i < kCount - 1; ++i) {  // the last element is padding
     const float p = window[i], weighted = p * weight[i];
     sums.along_x += p * fx[i];
     sums.along_y += p * fy[i];
@@ -110,7 +110,7 @@ URBAN_NAV_INLINE Sums measureAs(const float* window, const float* weight, const 
   return sums;
 }
 
-// One function of each kind for every width; only so can a compiler know what processor it is for.
+// One function of each kind per width: the target processor is an attribute of the function.
 #define URBAN_NAV_KERNELS(Width, target)                                                                      \
   target void read##Width(const std::uint8_t* first, std::ptrdiff_t stride, const float* wx, const float* wy, \
                           bool blurs, float* window) {                                                        \

@@ -71,7 +71,7 @@ void meanRemovedSads(const SadPatch& patch, const ImageView& image, int u, int v
   }
   const std::uint8_t* first = image.row(v - 4) + (u - 4);
   for (int i = 0; i < count; i += set.lanes) {
-    const int at = std::min(i, count - set.lanes);  // some places twice, rather than pixels after the last
+    const int at = std::min(i, count - set.lanes);  // processes some positions twice instead of reading beyond the last
     set.compare(patch.value.data(), first + at, image.stride, sads + at);
   }
 }

@@ -17,15 +17,15 @@ constexpr int kMostRounds = 4;
 constexpr double kSettledSlope = 0.01;
 constexpr double kSteepestSlope = 0.9;
 
-/// What pixels say of (shift x, shift y, slant u, slant v): normal equations of one step.
+/// Normal equations of one iteration for (shift x, shift y, slant u, slant v).
 struct Equations {
   Eigen::Matrix4d H;
   Eigen::Vector4d b;
   double noise2 = 1.0;  // variance of a weighted pixel
 };
 
-/// A pixel p of the source stands at A p + direction (slant . p) in the view; alignment.position is where the image was
-/// aligned.
+/// Builds the equations of the model that pixel p of the source maps to A p + direction (slant . p) in the view, at
+/// alignment.position.
 Equations observe(const ImageView& image, const PatchTemplate& patch, const Gradients& gradients,
                   const Alignment& alignment, const Eigen::Vector2d& direction) {
   PatchGrid pixels;
@@ -48,14 +48,13 @@ Equations observe(const ImageView& image, const PatchTemplate& patch, const Grad
     made.b(i) = dot(blind[static_cast<std::size_t>(i)], pixels) / alignment.gain;
     for (int j = 0; j < 4; ++j) made.H(i, j) = dot(blind[static_cast<std::size_t>(i)], J[static_cast<std::size_t>(j)]);
   }
-  // the spline's correlation between neighbours costs about a factor of two
+  // correlation of adjacent pixels by the spline costs about a factor of two
   const double g2 = alignment.gain * alignment.gain;
   made.noise2 = 2.0 * std::max(alignment.noise * alignment.noise, 0.5) * kSmoothedNoise * (1.0 + g2) / g2;
   return made;
 }
 
-/// What they say of the slopes, the shift being whatever fits best; `assumed`: the slopes that the template was made
-/// with.
+/// Adds the information on the slopes, with the shift marginalised. `assumed`: the slopes of the template.
 void see(const Equations& equations, const Eigen::Vector2d& assumed, Slope& slope) {
   const Eigen::Matrix2d coupling = equations.H.block<2, 2>(2, 0) * equations.H.block<2, 2>(0, 0).inverse();
   const Eigen::Matrix2d information =
@@ -91,7 +90,7 @@ SlopedAlignment alignAcross(const ImageView& image, const PatchSource& source, c
       result.alignment.converged = false;
       return result;
     }
-    // the shift's covariance grows by what the slopes leave open
+    // propagates the uncertainty of the slopes to the shift
     const Eigen::Matrix2d inverse = equations.H.block<2, 2>(0, 0).inverse(),
                           coupling = inverse * equations.H.block<2, 2>(0, 2);
     result.alignment.covariance += 0.5 * coupling * estimate.covariance * coupling.transpose();

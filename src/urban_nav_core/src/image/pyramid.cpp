@@ -17,7 +17,7 @@ int mirrored(int i, int n) {
   return i < n ? i : period - i;
 }
 
-/// Columns of five rows weighed by 1 4 6 4 1: at most 4080. Writes up to 15 elements past `width`.
+/// Filters the columns of five rows by 1 4 6 4 1: at most 4080. Writes up to 15 elements beyond `width`.
 void smoothDown(const std::uint8_t* const rows[5], int width, std::int16_t* out) {
   int u = 0;
 #if CV_SIMD128
@@ -37,8 +37,8 @@ void smoothDown(const std::uint8_t* const rows[5], int width, std::int16_t* out)
 #endif
 }
 
-/// Even elements of a row weighed by 1 4 6 4 1 and divided by 256. `row` has two mirrored elements on either side;
-/// `out` may be overwritten up to 15 bytes past `width`.
+/// Filters a row by 1 4 6 4 1 at its even elements and divides by 256. `row` has two mirrored elements on either side;
+/// up to 15 bytes beyond `width` of `out` may be overwritten.
 void smoothAcross(const std::int16_t* row, int width, std::uint8_t* out) {
   int u = 0;
 #if CV_SIMD128

@@ -13,15 +13,15 @@ namespace urban_nav_core {
 
 namespace {
 
-constexpr double kUniqueness = 0.85;     // best over second best, more than two pixels away
-constexpr double kAcceptedShare = 0.75;  // of the patch's own contrast
+constexpr double kUniqueness = 0.85;     // ratio of the best to the second best more than two pixels away
+constexpr double kAcceptedShare = 0.75;  // of the patch's contrast
 constexpr int kLongestRow = 1024;        // disparities of one search
 
 struct Best {
   int sad = std::numeric_limits<int>::max(), second = std::numeric_limits<int>::max(), u = 0;
 };
 
-/// Best place of a patch on row v between two columns, and the best one more than two pixels from it.
+/// Returns the best position of a patch on row v between two columns, and the best one more than two pixels from it.
 Best searchRow(const SadPatch& patch, const ImageView& image, int from, int to, int v) {
   Best best;
   std::array<int, kLongestRow> sads;

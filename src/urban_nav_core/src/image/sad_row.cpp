@@ -10,7 +10,7 @@ namespace {
 using vectors::load;
 using vectors::store;
 
-// One text serves every width.
+// One source serves every width.
 struct Narrow {
   typedef std::uint8_t Bytes __attribute__((vector_size(8)));
   typedef std::int16_t Numbers __attribute__((vector_size(16)));
@@ -30,7 +30,7 @@ URBAN_NAV_INLINE void compareAs(const std::int16_t* patch, const std::uint8_t* f
   using V = typename Width::Numbers;
   constexpr int kLanes = Width::kLanes, kLine = kLanes + kColumns;
   alignas(32) std::int16_t pixels[kRows * kLine], sums[kLine];
-  V near{}, far{};  // column by column, and seven further: no pixel beyond the last patch is touched
+  V near{}, far{};  // column by column, and seven further: no pixel beyond the last patch is read
   for (int j = 0; j < kRows; ++j) {
     const V a = __builtin_convertvector(load<typename Width::Bytes>(first + j * stride), V);
     const V b = __builtin_convertvector(load<typename Width::Bytes>(first + j * stride + kColumns - 1), V);
@@ -49,7 +49,7 @@ URBAN_NAV_INLINE void compareAs(const std::int16_t* patch, const std::uint8_t* f
   for (std::int16_t& mean : means)
     mean = static_cast<std::int16_t>((2U * static_cast<unsigned>(mean) + kCount) / (2U * kCount));
   const V mean = load<V>(means);
-  V total{};  // up to 36 720: taken as unsigned
+  V total{};  // up to 36 720: interpreted as unsigned
   for (int j = 0; j < kRows; ++j)
 #pragma GCC unroll 8
     for (int i = 0; i < kColumns; ++i) {

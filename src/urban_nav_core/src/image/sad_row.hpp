@@ -7,19 +7,18 @@
 
 namespace urban_nav_core::sad_row {
 
-/// The search along a row, own code beside OpenCV's universal intrinsics because those are compiled for the portable
-/// baseline: chosen at run time by what the processor can do. All of it is integers, so that the choice does not show
-/// in the result.
+/// Search along a row. Own code instead of OpenCV's universal intrinsics, because those are compiled for the portable
+/// baseline. The instruction set is chosen at run time; integer arithmetic makes the result independent of it.
 struct InstructionSet {
   const char* name;
-  int lanes;  ///< places compared at once
+  int lanes;  ///< positions compared at once
 
-  /// Mean-removed SAD (patch.hpp) of a patch of 9 rows by 8 at `lanes` places side by side; `first`: upper left pixel
-  /// of the first.
+  /// Computes the mean-removed SAD (patch.hpp) of a patch of 9 rows by 8 at `lanes` adjacent positions; `first`: upper
+  /// left pixel of the first position.
   void (*compare)(const std::int16_t* patch, const std::uint8_t* first, std::ptrdiff_t stride, int* sads);
 };
 
-/// What this machine can run, fastest first. The last is always there.
+/// Returns the instruction sets that this machine supports, fastest first. The last one is supported everywhere.
 std::vector<InstructionSet> instructionSets();
 
 }  // namespace urban_nav_core::sad_row

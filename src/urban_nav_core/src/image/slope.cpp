@@ -11,7 +11,7 @@ namespace urban_nav_core {
 namespace {
 
 constexpr int kRounds = 12;
-constexpr double kSettled = 1e-3;  // of the prior's information
+constexpr double kSettled = 1e-3;  // relative to the information of the prior
 
 }  // namespace
 
@@ -21,8 +21,8 @@ void Slope::see(const Eigen::Vector2d& moment, const Eigen::Matrix2d& informatio
 }
 
 Slope::Estimate Slope::under(double usual) const {
-  // Cauchy is Gaussian with an information w that is Gamma(1/2, usual^2 / 2); given a slope s, w is (1 + 2) / (usual^2
-  // + |s|^2).
+  // A Cauchy variable is Gaussian with information w ~ Gamma(1/2, usual^2 / 2); given a slope s, w is (1 + 2) /
+  // (usual^2 + |s|^2).
   Estimate estimate;
   double w = 1.0 / (usual * usual);
   for (int round = 0; round < kRounds; ++round) {

@@ -3,8 +3,8 @@
 
 #include <cstring>
 
-/// Vectors of the compiler's own, for the kernels of this folder that are compiled once for every width and chosen at
-/// run time. All is inlined into functions that name their processor: nothing of this may be called from elsewhere.
+/// GCC vector types for the kernels of this folder, which are compiled for several widths and selected at run time.
+/// Everything is inlined into functions with a target attribute and must not be used elsewhere.
 
 #if defined(__x86_64__)
 #define URBAN_NAV_X86 1
@@ -12,8 +12,7 @@
 
 #define URBAN_NAV_INLINE __attribute__((always_inline)) inline
 
-// Vectors wider than the baseline's are handed between functions that are all inlined: there is no call whose ABI
-// could change.
+// Vectors wider than those of the baseline are passed only between inlined functions, so no call depends on the ABI.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace urban_nav_core::vectors {

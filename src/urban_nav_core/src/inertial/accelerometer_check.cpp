@@ -19,15 +19,15 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kGravity = 9.80665;                  // m/s2
-constexpr double kLeastSize = 9.0, kMostSize = 11.0;  // m/s2: vibration makes the mean length larger
-constexpr double kNoGravity = 3.0;                    // m/s2: no drive accelerates so on average
-constexpr double kSteady = 0.8;                       // least length of the mean over the mean length for a direction
-constexpr double kTilted = 45.0;                      // deg: no street and no usual mounting error
+constexpr double kLeastSize = 9.0, kMostSize = 11.0;  // m/s2: vibration increases the mean length
+constexpr double kNoGravity = 3.0;                    // m/s2: no drive has such a mean acceleration
+constexpr double kSteady = 0.8;                       // least ratio of the length of the mean to the mean length
+constexpr double kTilted = 45.0;                      // deg: more than any road slope or mounting error
 constexpr double kFits = 30.0;                        // deg
 constexpr double kUnitTolerance = 0.08;               // relative
-constexpr double kCorrelated = 0.3;                   // least correlation of lateral force and yaw rate
-constexpr double kSameCorrelation = 0.1;              // candidates that close are equal
-constexpr double kMostForce = 1e6, kMostRate = 1e6;   // m/s2, rad/s: beyond, numbers are no measurements
+constexpr double kCorrelated = 0.3;                   // least correlation of lateral force with yaw rate
+constexpr double kSameCorrelation = 0.1;              // candidates within this difference are equivalent
+constexpr double kMostForce = 1e6, kMostRate = 1e6;   // m/s2, rad/s: larger values are invalid
 constexpr double kMostWeight = 60'000.0;              // measurements: ten minutes at 100 Hz
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
@@ -47,12 +47,12 @@ const Unit* findUnit(double size) {
 
 double angleBetween(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
-/// Returns a number that is larger for less usual conventions.
+/// Returns a rank of conventions, larger for less common ones.
 double oddness(const Matrix3d& axes) {
   const double negative = static_cast<double>((axes.array() < 0.0).count());
   const bool moved = (axes.diagonal().array() == 0.0).any();
   const bool is_mirrored = axes.col(0).cross(axes.col(1)).dot(axes.col(2)) < 0.0;
-  if (negative == 3.0 && !moved) return 1.0;  // gravity in place of specific force
+  if (negative == 3.0 && !moved) return 1.0;  // gravity instead of specific force
   return negative + (moved ? 1.5 : 0.0) + (is_mirrored ? 0.75 : 0.0);
 }
 
@@ -65,7 +65,7 @@ std::string printForce(const Vector3d& force) {
 std::string describeCause(const Matrix3d& axes) {
   const bool moved = (axes.diagonal().array() == 0.0).any();
   if (!moved && (axes.diagonal().array() < 0.0).all())
-    return "the messages state gravity in place of specific force, the sign of NED";
+    return "the messages contain gravity instead of specific force (sign of NED)";
   if (!moved) return "axes of the messages have the wrong sign, as between NED and the axes of ROS";
   return "axes of the messages are exchanged";
 }
@@ -86,11 +86,11 @@ const char* toString(AccelerometerFault fault) {
 
 std::string AccelerometerVerdict::sentence() const {
   const std::string start = "the accelerometer measures ";
-  const std::string length = formatNumber(size, 4) + " m/s2 on average in place of gravity's 9.81";
+  const std::string length = formatNumber(size, 4) + " m/s2 on average instead of 9.81";
   switch (fault) {
     case AccelerometerFault::None: return "";
-    case AccelerometerFault::NotFinite: return start + "nothing that is finite";
-    case AccelerometerFault::NoGravity: return start + length + ": the device or its driver takes gravity off";
+    case AccelerometerFault::NotFinite: return start + "no finite value";
+    case AccelerometerFault::NoGravity: return start + length + ": the device or its driver subtracts gravity";
     case AccelerometerFault::Unit: {
       const Unit* unit = findUnit(size);
       return start + length + ": its unit is " + (unit == nullptr ? "another" : unit->name);
@@ -98,8 +98,8 @@ std::string AccelerometerVerdict::sentence() const {
     case AccelerometerFault::Size: return start + length + ": wrong scale";
     case AccelerometerFault::Direction:
       return start + "a mean specific force of " + printForce(mean) + " m/s2 in the axes of its device, " +
-             formatNumber(kDegrees * angle, 4) + " deg from up as the device is mounted: " +
-             (repair ? describeCause(repair->axes) : "its place in tf or its axes are wrong");
+             formatNumber(kDegrees * angle, 4) + " deg from vertical in base_link: " +
+             (repair ? describeCause(repair->axes) : "its pose in tf or its axes are wrong");
   }
   return "";
 }

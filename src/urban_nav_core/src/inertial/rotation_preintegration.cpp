@@ -25,8 +25,9 @@ Quaterniond RotationPreintegration::rotation(const Vector3d& bias) const {
 
 RotationResidual rotationResidual(const RotationPreintegration& measured, const Quaterniond& q_odom_from,
                                   const Quaterniond& q_odom_to, const Vector3d& bias) {
-  // A small turn of the bias' correction xi = J (b - b0) by J_r(xi) J d is left of E = Exp(e), and right of it as
-  // -E^T J_r(xi) J d; turns of the poses are right of it as -R_to^T phi_from and R_to^T phi_to.
+  // A perturbation d of the bias changes the correction xi = J (b - b0) by J_r(xi) J d, a left perturbation of E =
+  // Exp(e), which equals the right perturbation -E^T J_r(xi) J d. Perturbations of the poses are right perturbations
+  // -R_to^T phi_from and R_to^T phi_to.
   RotationResidual result;
   const Quaterniond E = measured.rotation(bias).conjugate() * q_odom_from.conjugate() * q_odom_to;
   result.e = logSo3(E.normalized());

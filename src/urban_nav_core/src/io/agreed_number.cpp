@@ -16,7 +16,7 @@ namespace urban_nav_core {
 
 namespace {
 
-/// Writes the text to a file of a new name beside `path`. Returns that name, empty with errno set on failure.
+/// Writes the text to a new file beside `path`. Returns its name; empty, with errno set, on failure.
 std::string writeProposal(const std::string& path, const std::string& text) {
   std::string name = path + ".XXXXXX";
   const int descriptor = ::mkstemp(name.data());
@@ -32,17 +32,17 @@ std::string writeProposal(const std::string& path, const std::string& text) {
 
 std::int64_t readNumber(const std::string& path) {
   const auto agreed = parseInteger(readTextFile(path));
-  if (!agreed) throw UserError(path, "holds no number", "a name that is new for each agreement");
+  if (!agreed) throw UserError(path, "holds no number", "a name not used before");
   return *agreed;
 }
 
 }  // namespace
 
 std::int64_t agreeOnNumber(const std::string& path, std::int64_t proposal) {
-  std::error_code ignored;  // a folder that cannot be made shows in the file
+  std::error_code ignored;  // a folder that cannot be created causes an error of the file
   std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
   const std::string file = writeProposal(path, std::to_string(proposal));
-  // A link to a name that exists fails, so that one proposal wins and is there as a whole.
+  // Linking to an existing name fails, so exactly one complete proposal succeeds.
   const int error = !file.empty() && ::link(file.c_str(), path.c_str()) == 0 ? 0 : errno;
   if (!file.empty()) ::unlink(file.c_str());
   if (error != 0 && error != EEXIST) throw UserError(path, std::strerror(error), "a folder that can be written");

@@ -24,8 +24,8 @@ void toLittleEndian(char* bytes, std::size_t width, std::size_t size) {
 #endif
 }
 
-/// FNV-1a of 64 bits (Fowler, Noll, Vo; RFC 9923): each step is a bijection of the state, so that no single changed
-/// byte goes unseen.
+/// FNV-1a of 64 bits (Fowler, Noll, Vo; RFC 9923): each step is a bijection of the state, so any single changed byte is
+/// detected.
 std::string checksum(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
@@ -41,9 +41,7 @@ bool areFinite(const Number* values, std::size_t size) {
 
 }  // namespace
 
-void Archive::refuse(const char* found) const {
-  throw DataError(what_, std::string("is damaged: ") + found, "the bytes as they were written");
-}
+void Archive::refuse(const char* found) const { throw DataError(what_, std::string("is damaged: ") + found, ""); }
 
 void Archive::bytes(void* data, std::size_t width, std::size_t size) {
   if (size == 0) return;
@@ -53,7 +51,7 @@ void Archive::bytes(void* data, std::size_t width, std::size_t size) {
     toLittleEndian(written_.data() + at, width, size);
     return;
   }
-  require(size <= left_.size() / width, "it ends too early");
+  require(size <= left_.size() / width, "it is truncated");
   std::memcpy(data, left_.data(), width * size);
   toLittleEndian(static_cast<char*>(data), width, size);
   left_.remove_prefix(width * size);
@@ -61,12 +59,12 @@ void Archive::bytes(void* data, std::size_t width, std::size_t size) {
 
 void Archive::integer(std::int64_t& value, std::int64_t least, std::int64_t most) {
   bytes(&value, sizeof(value), 1);
-  require(value >= least && value <= most, "a whole number is out of its range");
+  require(value >= least && value <= most, "an integer is out of range");
 }
 
 void Archive::count(std::size_t& value, std::size_t least) {
   one(value);
-  require(value <= left_.size() / std::max<std::size_t>(least, 1), "there are fewer things than it says");
+  require(value <= left_.size() / std::max<std::size_t>(least, 1), "it has fewer elements than its count");
 }
 
 void Archive::numbers(double* values, std::size_t size) {
@@ -85,9 +83,9 @@ void Archive::one(Pose& value) {
   one(q);
   one(t);
   if (!reading_) return;
-  require(std::abs(q.squaredNorm() - 1.0) < 1e-9, "a rotation is none");
+  require(std::abs(q.squaredNorm() - 1.0) < 1e-9, "a quaternion is not of unit length");
   value = Pose(Quaterniond(q), t);
-  require(value.q().coeffs() == q, "a rotation is none");
+  require(value.q().coeffs() == q, "a quaternion is not of unit length");
 }
 
 void Archive::one(std::string& value) {
@@ -110,10 +108,10 @@ bool isSealed(std::string_view bytes) { return bytes.substr(0, kMagicSize) == kM
 
 UnsealedState unseal(std::string_view what, std::uint32_t oldest, std::uint32_t newest, std::string_view sealed) {
   const std::string where = "state of " + std::string(what);
-  if (!isSealed(sealed)) throw DataError(where, "these bytes are no state", "the bytes as they were written");
+  if (!isSealed(sealed)) throw DataError(where, "is not a saved state", "");
   if (sealed.size() < kMagicSize + kChecksumSize ||
       checksum(sealed.substr(0, sealed.size() - kChecksumSize)) != sealed.substr(sealed.size() - kChecksumSize))
-    throw DataError(where, "is damaged: its checksum does not agree", "the bytes as they were written");
+    throw DataError(where, "is damaged: its checksum does not match", "");
   const std::string_view body = sealed.substr(kMagicSize, sealed.size() - kMagicSize - kChecksumSize);
   Archive head(body, where);
   std::string name;

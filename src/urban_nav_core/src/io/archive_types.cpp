@@ -5,7 +5,7 @@ namespace urban_nav_core {
 
 void archive(Archive& archive, Status& status) {
   archive(status.health, status.reason, status.sentence);
-  archive.require(status.health >= Health::Ok && status.health <= Health::Recovered, "a status is none");
+  archive.require(status.health >= Health::Ok && status.health <= Health::Recovered, "an unknown status");
 }
 
 void archive(Archive& archive, PoseWithCovariance& value) { archive(value.pose, value.covariance); }
@@ -27,7 +27,8 @@ void archive(Archive& archive, RelativePose& value) {
 void archive(Archive& archive, MotionInput& input) {
   Pose sensor(input.q_base_sensor, Vector3d::Zero());
   archive(input.from, input.to, input.T_from_to, input.information, input.source, sensor);
-  archive.require(input.source >= MotionSource::Given && input.source <= MotionSource::Wheels, "no such sensor");
+  archive.require(input.source >= MotionSource::Given && input.source <= MotionSource::Wheels,
+                  "a motion source is unknown");
   input.q_base_sensor = sensor.q();
 }
 

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kBuffer = 1U << 16U;
 
-// A place that cannot be written is the caller's mistake; a disk without room is not, as a store has it too.
+// An unwritable path is an error of the user; a full disk is not, as in stores.
 [[noreturn]] void fail(const std::string& path) {
   const int error = errno;
   const std::string what = std::string("cannot be written: ") + std::strerror(error);
@@ -28,13 +28,13 @@ constexpr std::size_t kBuffer = 1U << 16U;
   throw UserError(path, what, "");
 }
 
-// A device or a pipe (/dev/stdout, say): a rename would put a file in its place.
+// Returns whether the path is a device or a pipe (/dev/stdout, for instance), which a rename would replace by a file.
 bool isStream(const std::string& path) {
   std::error_code ignored;
   return fs::is_other(fs::status(path, ignored));
 }
 
-// A rename would put a file in the place of a link, and leave alone what it points to.
+// Returns the target of a symbolic link, since a rename would replace the link itself.
 std::string linkTarget(const std::string& path) {
   std::error_code error;
   if (!fs::is_symlink(path, error)) return path;
@@ -47,8 +47,8 @@ std::string beside(const std::string& final_path) {
   return (path.parent_path() / (path.stem().string() + ".part" + path.extension().string())).string();
 }
 
-// The new name is on disk only once its folder is. Some file systems refuse to flush a folder: the file itself is safe
-// then.
+// A rename is durable only after its folder is flushed. Some file systems do not support that; the file's content is
+// safe then.
 void flushFolder(const std::string& path) {
   const fs::path folder = fs::path(path).parent_path();
   const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -36,7 +36,7 @@ void refuseUnlessRotation(const Matrix3d& R, const std::string& where, const std
   constexpr double kTolerance = 1e-3;
   const bool rotation =
       ((R * R.transpose() - Matrix3d::Identity()).array().abs() <= kTolerance).all() && R.determinant() > 0.0;
-  if (!rotation) throw UserError(where, what + " is no rotation", "");
+  if (!rotation) throw UserError(where, what + " is not a rotation", "");
 }
 
 Pose requireExtrinsics(const YamlNode& root, const std::string& file) {
@@ -45,7 +45,7 @@ Pose requireExtrinsics(const YamlNode& root, const std::string& file) {
   return Pose(Matrix3d(M.topLeftCorner<3, 3>()), Vector3d(M.topRightCorner<3, 1>()));
 }
 
-/// Returns a number that no result needs; 0 without the key.
+/// Returns an optional non-negative number; 0 without the key.
 double findNotNegative(const YamlNode& root, std::string_view key, const std::string& file) {
   if (root.find(key) == nullptr) return 0.0;
   const double value = requireNumber(root, key, file);
@@ -60,7 +60,7 @@ std::vector<double> toNumbers(const YamlNode& node, std::string_view key, const 
   return list.kind == YamlNode::Kind::List ? requireNumbers(node, key, list.list.size(), file) : std::vector<double>{};
 }
 
-// ---- KITTI
+// KITTI
 
 std::optional<Projection> parseProjection(std::string_view line, std::string_view key, std::string_view raw_key,
                                           const std::string& where) {
@@ -99,7 +99,7 @@ std::string printProjection(const std::string& key, const StereoCamera& camera, 
   return line + "\n";
 }
 
-// ---- camera_info
+// camera_info
 
 template <typename Matrix>
 std::string printMatrix(const std::string& key, const Matrix& M) {
@@ -122,7 +122,7 @@ StereoCamera parseKittiCalibration(std::string_view text, const std::string& nam
   });
   if (!left || !right)
     throw UserError(name, "no line P" + (left ? b : a), "`P" + a + ": ` and `P" + b + ": ` with twelve numbers each");
-  // The left camera need not be the origin of the rig: what counts is how far right of it the other one is.
+  // The left camera need not be the origin of the rig: only the offset between the two is used.
   right->col(3) -= left->col(3);
   left->col(3).setZero();
   return stereoCamera(makeInfo(*left, width, height), makeInfo(*right, width, height), name);

@@ -13,7 +13,7 @@ namespace urban_nav_core {
 namespace {
 
 constexpr std::array<const char*, 7> kPoseColumns = {"x", "y", "z", "qx", "qy", "qz", "qw"};
-constexpr double kLengthTolerance = 0.01;  // of a quaternion
+constexpr double kLengthTolerance = 0.01;  // of a quaternion's length
 
 /// Returns the text of a cell; empty without the column.
 std::string findText(const CsvTable& table, std::size_t row, const char* column) {

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 9> kRotations = {"q",   "quat",     "quat
                                                         "rot", "rotation", "attitude",   "quaternions"};
 constexpr std::array<std::string_view, 7> kStamps = {"stamp",      "timestamp", "time", "stamps",
                                                      "timestamps", "t",         "times"};
-/// Quantities that are not among those looked for.
+/// Quantities that are not searched for.
 constexpr std::array<std::string_view, 22> kOthers = {
     "n",   "normal", "normals",      "v",   "vel",        "velocity", "linear", "angular", "twist", "omega",  "gyro",
     "acc", "accel",  "acceleration", "cov", "covariance", "sigma",    "std",    "scale",   "color", "colour", "bias"};
@@ -41,7 +41,7 @@ NameWords splitName(const std::string& plain) {
   return words;
 }
 
-/// Returns the axis that a word names, 0 to 3 for x, y, z, w.
+/// Returns the axis named by a word, 0 to 3 for x, y, z, w.
 std::optional<int> findAxis(const std::string& word) {
   const std::size_t axis = word.size() == 1 ? std::string_view("xyzw").find(word.front()) : std::string_view::npos;
   return axis == std::string_view::npos ? std::nullopt : std::optional<int>(static_cast<int>(axis));
@@ -54,7 +54,7 @@ std::optional<Quantity> position(int axis) {
   return static_cast<Quantity>(static_cast<int>(Quantity::X) + axis);
 }
 
-/// Names of one word: x, qx, tx, px, posx, easting.
+/// Single-word names: x, qx, tx, px, posx, easting.
 std::optional<Quantity> readWord(const std::string& word) {
   static const std::array<std::pair<const char*, Quantity>, 3> kSurvey = {
       {{"easting", Quantity::X}, {"northing", Quantity::Y}, {"elevation", Quantity::Z}}};
@@ -109,7 +109,7 @@ std::optional<std::size_t> findColumn(const std::vector<std::string>& header, Qu
     if (readQuantity(header[i]) != quantity) continue;
     const std::string plain = plainName(header[i]);
     std::size_t rank = splitName(plain).size();
-    // The stamp of a header is that of the measurement, %time beside it that of receipt.
+    // The header's stamp is that of the measurement; %time is that of receipt.
     if (quantity == Quantity::Stamp && plain.find("stamp") == std::string::npos) rank += plain.size() + header.size();
     if (found && rank >= least) continue;
     found = i;

@@ -39,7 +39,7 @@ constexpr std::array<Signature, 16> kSignatures = {{
     {"<!DOCTYPE html"sv, "is a page of HTML: a download that did not give the file"},
 }};
 
-/// Whether a text begins as DBoW2 writes vocabularies: branching, depth, scoring and weighting in one line.
+/// Returns whether a text begins like a DBoW2 vocabulary: branching, depth, scoring and weighting in one line.
 bool isDbow2Text(std::string_view content) {
   const auto words = splitBlanks(content.substr(0, std::min(content.find('\n'), content.size())));
   if (words.size() != 4 || content.find('\n') == std::string_view::npos) return false;

@@ -197,7 +197,7 @@ Pose toPose(const std::array<double, 7>& v, int dimension) {
   return Pose(Quaterniond(v[6], v[3], v[4], v[5]), {v[0], v[1], v[2]});
 }
 
-// d_g2o = J d_box: the error's translation and quaternion vector live in `to`, and the vector is half the angle.
+// d_g2o = J d_box: translation and quaternion vector of the error are in `to`, and the vector is half the angle.
 Matrix6d g2oFromBox(const Pose& T_from_to) {
   const Matrix3d R_to_from = T_from_to.R().transpose();
   Matrix6d J = Matrix6d::Zero();

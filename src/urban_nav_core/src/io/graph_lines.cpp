@@ -47,7 +47,7 @@ void GraphLines::refuse(const std::string& what, const std::string& allowed) con
 }
 
 void GraphLines::add(const G2oGraph::Vertex& vertex) {
-  if (!known_.insert(vertex.id).second) refuse("vertex " + std::to_string(vertex.id) + " stands twice", "");
+  if (!known_.insert(vertex.id).second) refuse("duplicate vertex " + std::to_string(vertex.id), "");
   graph_.lines.push_back({G2oGraph::Kind::Vertex, graph_.vertices.size()});
   graph_.vertices.push_back(vertex);
 }
@@ -58,7 +58,7 @@ void GraphLines::add(const G2oGraph::Edge& edge) {
 }
 
 void GraphLines::add(const G2oGraph::Point& point) {
-  if (!known_.insert(point.id).second) refuse("vertex " + std::to_string(point.id) + " stands twice", "");
+  if (!known_.insert(point.id).second) refuse("duplicate vertex " + std::to_string(point.id), "");
   graph_.lines.push_back({G2oGraph::Kind::Point, graph_.points.size()});
   graph_.points.push_back(point);
 }
@@ -74,7 +74,7 @@ void GraphLines::add(const G2oGraph::Prior& prior) {
 }
 
 void GraphLines::add(const G2oGraph::Offset& offset) {
-  if (!known_offsets_.insert(offset.id).second) refuse("parameter " + std::to_string(offset.id) + " stands twice", "");
+  if (!known_offsets_.insert(offset.id).second) refuse("duplicate parameter " + std::to_string(offset.id), "");
   graph_.lines.push_back({G2oGraph::Kind::Offset, graph_.offsets.size()});
   graph_.offsets.push_back(offset);
 }

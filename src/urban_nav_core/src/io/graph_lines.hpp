@@ -10,20 +10,20 @@
 
 namespace urban_nav_core {
 
-/// `text` without a byte order mark at its begin.
+/// Returns the text without a byte order mark.
 std::string_view withoutByteOrderMark(std::string_view text);
 
-/// What the text formats of pose graphs have in common: lines of a tag, vertex numbers and figures. Each demand throws
-/// a UserError that names file and line.
+/// Common parser of the text formats of pose graphs: lines of a tag, vertex ids and numbers. All members throw
+/// UserError naming file and line for invalid input.
 class GraphLines {
  public:
   using Words = std::vector<std::string_view>;
 
-  /// `two_kinds`: what to call a file with lines of the plane and of space.
+  /// `two_kinds`: names the two dimensions in errors ("SE2 and SE3").
   GraphLines(std::string name, UnknownTags unknown, std::string known_tags, std::string two_kinds);
 
-  /// The words of the next line, without a comment after them; empty: nothing in it. A line that is a comment as a
-  /// whole is one word or more.
+  /// Returns the words of the next line, without a trailing comment; empty for a blank line. A line that is entirely a
+  /// comment is returned as words.
   Words begin(std::string_view text, int number);
 
   void demandColumns(const Words& words, std::size_t columns, int dimension);
@@ -38,7 +38,7 @@ class GraphLines {
   void add(const G2oGraph::Prior& prior);
   void add(const G2oGraph::Offset& offset);
   void fix(const Words& words);
-  /// A line that the format does not know.
+  /// Handles a line with an unknown tag.
   void other(std::string_view text, std::string_view tag);
 
   G2oGraph take() { return std::move(graph_); }

@@ -11,7 +11,7 @@ namespace urban_nav_core {
 
 namespace {
 
-/// Numbers at places of a file, in either byte order; `good` is false after one beyond the end.
+/// Reads numbers of a file in either byte order; `good` becomes false after a read beyond the end.
 class Bytes {
  public:
   Bytes(std::string_view file, bool is_big_endian) : file_(file), is_big_endian_(is_big_endian) {}
@@ -34,7 +34,7 @@ class Bytes {
   bool is_big_endian_;
 };
 
-/// Returns the product, or the largest number where it is larger.
+/// Returns the product, saturated.
 std::uint64_t product(std::initializer_list<std::uint64_t> factors) {
   std::uint64_t result = 1;
   for (const std::uint64_t factor : factors) {
@@ -50,8 +50,7 @@ std::optional<ImageHeader> finished(const Bytes& bytes, ImageHeader header) {
   return header;
 }
 
-// ISO/IEC 15948, 11.2.2. Types of colour: 0 grey, 2 colour, 3 a palette, which becomes colour; 4 and 6 with
-// transparency.
+// ISO/IEC 15948, 11.2.2. Colour types: 0 grey, 2 colour, 3 palette (decoded to colour); 4 and 6 with alpha.
 std::optional<ImageHeader> parsePng(std::string_view file) {
   Bytes bytes(file, true);
   if (bytes.number(12, 4) != 0x49484452) return std::nullopt;  // IHDR
@@ -62,7 +61,7 @@ std::optional<ImageHeader> parsePng(std::string_view file) {
   return finished(bytes, header);
 }
 
-// ITU-T T.81, annex B.2.2. A progressive image is held as coefficients of two bytes as well.
+// ITU-T T.81, annex B.2.2. A progressive image additionally requires two-byte coefficients.
 std::optional<ImageHeader> parseJpeg(std::string_view file) {
   Bytes bytes(file, true);
   for (std::size_t at = 2; bytes.good;) {
@@ -113,7 +112,7 @@ std::optional<ImageHeader> parseTiff(std::string_view file) {
   return finished(bytes, header);
 }
 
-// BITMAPINFOHEADER, or the older BITMAPCOREHEADER with 12 bytes. A negative height: rows from the top.
+// BITMAPINFOHEADER, or the older BITMAPCOREHEADER of 12 bytes. A negative height means rows from the top.
 std::optional<ImageHeader> parseBmp(std::string_view file) {
   Bytes bytes(file, false);
   const std::size_t size = bytes.number(14, 4) == 12 ? 2 : 4;
@@ -123,7 +122,7 @@ std::optional<ImageHeader> parseBmp(std::string_view file) {
   return finished(bytes, header);
 }
 
-// netpbm's P1 to P6: words between blanks, and comments from # to the end of the line.
+// netpbm's P1 to P6: words separated by blanks, and comments from # to the end of the line.
 std::optional<ImageHeader> parsePnm(std::string_view file) {
   const bool is_bitmap = file[1] == '1' || file[1] == '4';
   std::uint64_t numbers[3] = {0, 0, 1};
@@ -159,7 +158,7 @@ std::optional<ImageHeader> parseImageHeader(std::string_view file) {
 
 std::string imageFault(std::string_view file) {
   const std::optional<ImageHeader> header = parseImageHeader(file);
-  if (!header) return "is no PNG, JPEG, TIFF, BMP or PNM with a whole header";
+  if (!header) return "is not a PNG, JPEG, TIFF, BMP or PNM file with an intact header";
   if (header->bytes <= largestImage()) return {};
   return std::to_string(header->width) + " x " + std::to_string(header->height) + " pixels exceed the " +
          std::to_string(largestImage() >> 20U) + " MB that memory_mb = " + std::to_string(memoryLimit() >> 20U) +

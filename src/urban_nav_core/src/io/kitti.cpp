@@ -32,7 +32,7 @@ KittiMatrix parseLine(const std::vector<std::string_view>& words, const std::str
     if (!number) throw UserError(where, "`" + std::string(word) + "`", "a finite number");
     M(i / 4, i % 4) = *number;
   }
-  if (!isRotation(M.leftCols<3>())) throw UserError(where, "a matrix that is no rotation to 0.001", "");
+  if (!isRotation(M.leftCols<3>())) throw UserError(where, "a matrix that is not a rotation (tolerance 0.001)", "");
   return M;
 }
 
@@ -76,7 +76,7 @@ std::vector<Pose> readKitti(const std::string& path) { return parseKitti(readTex
 
 std::optional<StampNs> parseTime(std::string_view word) {
   if (const auto stamp = parseStamp(word)) return stamp;
-  // Exact enough in a double, since KITTI's times begin at zero.
+  // A double is exact enough, since KITTI's times begin at zero.
   const auto seconds = parseNumber(word);
   if (!seconds || std::abs(*seconds) > 9.2e9) return std::nullopt;
   return static_cast<StampNs>(std::llround(*seconds * 1e9));
@@ -86,7 +86,7 @@ std::vector<StampNs> parseTimes(std::string_view text, const std::string& name) 
   std::vector<StampNs> times;
   forEachTime(text, name, [&times](std::string_view word, StampNs stamp, const std::string& where) {
     if (!times.empty() && stamp <= times.back())
-      throw UserError(where, std::string(word) + " is not later than the time before", "");
+      throw UserError(where, std::string(word) + " is not later than the previous time", "");
     times.push_back(stamp);
   });
   return times;
@@ -99,7 +99,8 @@ struct TimeWord {
 };
 
 constexpr double kLargestSeconds = 1e11, kLargestMilliseconds = 1e14, kLargestMicroseconds = 1e17;  // since 1970
-constexpr double kLongestSeconds = 5e3, kLongestMicroseconds = 5e6;  // between images; more is of a smaller unit
+constexpr double kLongestSeconds = 5e3, kLongestMicroseconds = 5e6;  // interval between images; longer ones imply a
+                                                                     // smaller unit
 
 /// Returns the words of a table of one column.
 std::vector<TimeWord> readTimeWords(std::string_view text, const std::string& name) {
@@ -116,7 +117,7 @@ std::vector<TimeWord> readTimeWords(std::string_view text, const std::string& na
   return words;
 }
 
-/// Returns the size in s of the unit of times: by their size where they are times since 1970, else by their intervals.
+/// Returns the unit of times in s: by magnitude for times since 1970, else by their intervals.
 double findTimeUnit(const std::vector<TimeWord>& words) {
   std::vector<double> times, intervals;
   for (const TimeWord& word : words)

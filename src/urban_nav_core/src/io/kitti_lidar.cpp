@@ -16,7 +16,7 @@ namespace {
 using RowMajor3x3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using RowMajor3x4 = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 
-/// A row `KEY: NUMBER ...` of a calibration.
+/// Row `KEY: NUMBER ...` of a calibration file.
 struct CalibrationRow {
   std::string where;
   std::vector<double> numbers;
@@ -46,7 +46,7 @@ std::optional<CalibrationRow> findCalibrationRow(std::string_view text, const st
 Matrix3d requireRotation(const Matrix3d& R, const std::string& where) {
   constexpr double kTolerance = 1e-3;
   if (!((R * R.transpose() - Matrix3d::Identity()).array().abs() <= kTolerance).all() || !(R.determinant() > 0.0))
-    throw UserError(where, "a matrix that is no rotation to 0.001", "");
+    throw UserError(where, "a matrix that is not a rotation (tolerance 0.001)", "");
   return R;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-// std::from_chars wants no plus sign, and takes "nan" and "inf".
+// std::from_chars rejects a plus sign and accepts "nan" and "inf".
 bool looksDecimal(std::string_view text) {
   bool digit = false;
   for (const char c : text) {
@@ -27,8 +27,7 @@ std::string_view withoutPlus(std::string_view text) {
   return plus ? text.substr(1) : text;
 }
 
-// A number out of range is too small rather than too large if its exponent is negative, or if there is none and it
-// begins with a zero.
+// A number out of range is an underflow if its exponent is negative, or if it has none and begins with a zero.
 bool isUnderflow(std::string_view text) {
   const std::size_t e = text.find_first_of("eE");
   if (e != std::string_view::npos) return e + 1 < text.size() && text[e + 1] == '-';

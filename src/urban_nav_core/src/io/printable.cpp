@@ -14,7 +14,7 @@ struct Character {
   bool is_valid = false;
 };
 
-/// Returns the character at the beginning of a text by RFC 3629, section 4: the shortest form, no surrogates.
+/// Returns the first character of a text by RFC 3629, section 4: shortest form, no surrogates.
 Character firstCharacter(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
   const std::uint32_t first = byte(0);

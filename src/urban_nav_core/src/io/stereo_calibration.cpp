@@ -17,7 +17,7 @@ namespace urban_nav_core {
 namespace {
 
 constexpr double kLargestSize = 100000.0;  // px a side
-constexpr double kSame = 1e-9;             // relative, of equal numbers
+constexpr double kSame = 1e-9;             // relative difference of equal numbers
 constexpr const char* kFormats =
     "KITTI's calib.txt, Kalibr's camchain.yaml, ost.txt with both cameras, or LEFT,RIGHT: two files of camera_info, "
     "EuRoC's sensor.yaml or ost.txt";
@@ -39,18 +39,18 @@ Pose toPose(const Eigen::Matrix4d& M, const std::string& what, const std::string
   const Matrix3d R = M.topLeftCorner<3, 3>();
   const bool rotates =
       ((R * R.transpose() - Matrix3d::Identity()).array().abs() <= kTolerance).all() && R.determinant() > 0.0;
-  if (!rotates) throw UserError(where, what + " is no rigid transform", "a rotation and a translation");
+  if (!rotates) throw UserError(where, what + " is not a rigid transform", "a rotation and a translation");
   return Pose(R, Vector3d(M.topRightCorner<3, 1>()));
 }
 
-// ---- Kalibr
+// Kalibr
 
-/// Returns a 4x4 matrix that is a list of four rows; nullopt without the key.
+/// Returns a 4x4 matrix given as a list of four rows; nullopt without the key.
 std::optional<Pose> findTransform(const YamlNode& camera, const char* key, const std::string& name) {
   const YamlNode* rows = camera.find(key);
   if (rows == nullptr) return std::nullopt;
   const std::string where = atLine(name, rows->line);
-  if (rows->list.size() != 4) throw UserError(where, std::string(key) + " has no four rows", "a 4x4 matrix");
+  if (rows->list.size() != 4) throw UserError(where, std::string(key) + " does not have four rows", "a 4x4 matrix");
   Eigen::Matrix4d M;
   for (std::size_t i = 0; i < 4; ++i) {
     const YamlNode& row = rows->list[i];
@@ -86,9 +86,9 @@ CameraInfo readKalibrCamera(const YamlNode& camera, const std::string& name) {
   return info;
 }
 
-// ---- ost.txt
+// ost.txt
 
-/// Reads the lines of an ost.txt one after another; blank lines and comments are passed over.
+/// Reads the lines of an ost.txt in sequence; blank lines and comments are skipped.
 class OstLines {
  public:
   OstLines(std::string_view text, std::string name) : name_(std::move(name)) {
@@ -100,7 +100,7 @@ class OstLines {
 
   bool isAtEnd() const { return at_ == lines_.size(); }
   std::string_view take() {
-    if (isAtEnd()) throw UserError(name_, "ends early", "a whole ost.txt");
+    if (isAtEnd()) throw UserError(name_, "ends early", "a complete ost.txt");
     return lines_[at_++].first;
   }
   std::string where() const { return atLine(name_, at_ > 0 ? lines_[at_ - 1].second : 0); }
@@ -160,16 +160,16 @@ CameraPair parseStereoCalibration(const std::vector<std::string>& texts, const s
       throw UserError(names.front(), std::to_string(cameras.size()) + " camera", "two, or LEFT,RIGHT: a file for each");
     return {cameras[0], cameras[1]};
   }
-  if (texts.size() != 2) throw UserError(names.front(), "is one file of one camera, or of an unknown kind", kFormats);
+  if (texts.size() != 2) throw UserError(names.front(), "is a file of one camera, or of an unknown kind", kFormats);
   const CalibrationKind other = calibrationKind(texts.back());
-  if (kind != other) throw UserError(names.back(), "is of another kind than " + names.front(), kFormats);
+  if (kind != other) throw UserError(names.back(), "is not of the same kind as " + names.front(), kFormats);
   if (kind == CalibrationKind::Euroc) {
     const EurocCamera left = parseEurocCamera(texts.front(), names.front()),
                       right = parseEurocCamera(texts.back(), names.back());
     return rectifiedPair(left.info, right.info, right.T_body_camera.inverse() * left.T_body_camera, names.back());
   }
   if (kind == CalibrationKind::Camchain || kind == CalibrationKind::Other)
-    throw UserError(names.front(), "is no file of one camera that is known", kFormats);
+    throw UserError(names.front(), "is not a known calibration file of one camera", kFormats);
   return {readOne(texts.front(), names.front(), kind), readOne(texts.back(), names.back(), kind)};
 }
 
@@ -181,7 +181,7 @@ std::vector<CameraInfo> parseOst(std::string_view text, const std::string& name)
     const std::string_view key = lines.take();
     if (key == "width" || key == "height") {
       const std::vector<double> value = lines.takeNumbers();
-      if (value.size() != 1) throw UserError(lines.where(), "no number", "the " + std::string(key) + " in px");
+      if (value.size() != 1) throw UserError(lines.where(), "not a number", "the " + std::string(key) + " in px");
       (key == "width" ? width : height) = toSize(value.front(), std::string(key), lines.where());
     } else if (key == "camera matrix") {
       cameras.emplace_back();
@@ -203,7 +203,7 @@ std::vector<CameraInfo> parseOst(std::string_view text, const std::string& name)
     (void)rawCamera(info, name);
     (void)rectifiedPinhole(info, name);
   }
-  if (cameras.empty()) throw UserError(name, "has no `camera matrix`", "a whole ost.txt");
+  if (cameras.empty()) throw UserError(name, "has no `camera matrix`", "a complete ost.txt");
   return cameras;
 }
 

@@ -20,11 +20,11 @@ namespace {
 
 enum class ByteOrder { LittleEndian, BigEndian };
 
-constexpr std::size_t kRare = 10;           // times as rare: zeros in the lower bytes of UTF-16
+constexpr std::size_t kRare = 10;           // ratio of zero counts in even and odd bytes that identifies UTF-16
 constexpr std::size_t kSampledStart = 512;  // bytes at the beginning, to recognise UTF-16 without a mark
 
-/// Returns the byte order of UTF-16, and as `mark` the length of its byte order mark; nullopt for other encodings.
-/// Without a mark, letters of ASCII have zeros as their upper bytes.
+/// Returns the byte order of UTF-16, and in `mark` the length of its byte order mark; nullopt for other encodings.
+/// Without a mark, the upper bytes of ASCII characters are zero.
 std::optional<ByteOrder> findUtf16(std::string_view bytes, std::size_t& mark) {
   mark = 2;
   if (bytes.substr(0, 2) == "\xFF\xFE") return ByteOrder::LittleEndian;
@@ -62,7 +62,7 @@ void appendUtf8(std::string& text, std::uint32_t code) {
 }
 
 std::string utf16ToUtf8(std::string_view bytes, ByteOrder order) {
-  constexpr std::uint32_t kReplacement = 0xFFFDU;  // for half a pair of surrogates
+  constexpr std::uint32_t kReplacement = 0xFFFDU;  // for an unpaired surrogate
   const std::size_t high = order == ByteOrder::BigEndian ? 0 : 1;
   const auto unit = [&](std::size_t i) {
     return static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[2 * i + high])) << 8U |
@@ -95,7 +95,7 @@ std::string readBytes(const std::string& path) {
   if (!file) fail(errno);
   constexpr std::size_t kPiece = 1U << 16U;
   std::string text;
-  struct stat status = {};  // room for all of a file at once: a text that grows takes three times as much
+  struct stat status = {};  // reserves the whole file at once: a growing text takes three times as much
   if (::fstat(::fileno(file.get()), &status) == 0 && S_ISREG(status.st_mode))
     text.reserve(std::min(static_cast<std::size_t>(status.st_size), memoryLimit() / 2) + 2 * kPiece);
   std::size_t got = kPiece;

@@ -15,10 +15,10 @@
 namespace urban_nav_core {
 namespace {
 
-constexpr std::size_t kSampledRows = 64;  // from which the format of a table is determined
+constexpr std::size_t kSampledRows = 64;  // from which the format of a table is detected
 constexpr std::size_t kSampledBytes = std::size_t{1} << 18U;
 constexpr std::size_t kLongestShown = 40;  // characters of a cell in an error
-constexpr char kBlanks = ' ';              // the separator of cells with any number of blanks and tabs between them
+constexpr char kBlanks = ' ';              // separator of cells with any number of blanks and tabs between them
 constexpr std::array<char, 4> kSeparators = {',', ';', '\t', kBlanks};
 
 bool isCellBlank(char c) { return c == ' ' || c == '\t'; }
@@ -32,14 +32,14 @@ std::string_view withoutMarks(std::string_view line) {
   return line.substr(begin);
 }
 
-/// Returns a row of blanks without the comment at its end.
+/// Returns a row separated by blanks without its trailing comment.
 std::string_view withoutComment(std::string_view line) {
   for (std::size_t i = 1; i < line.size(); ++i)
     if (line[i] == '#' && isCellBlank(line[i - 1])) return line.substr(0, i);
   return line;
 }
 
-/// Whether a cell is a number with a comma where a point should be.
+/// Returns whether a cell is a number with a decimal comma.
 bool isDecimalComma(std::string_view cell) {
   const std::size_t comma = cell.find(',');
   if (comma == std::string_view::npos || cell.find_first_of(".,", comma + 1) != std::string_view::npos) return false;
@@ -54,7 +54,7 @@ class RowSplitter {
   RowSplitter(char separator, bool has_decimal_commas)
       : separator_(separator), has_decimal_commas_(has_decimal_commas) {}
 
-  /// Returns what is wrong with the line; empty if nothing is.
+  /// Returns what is wrong with the line; empty if it is valid.
   std::string split(std::string_view line, std::vector<std::string_view>& cells) {
     cells.clear();
     changed_.clear();
@@ -91,7 +91,7 @@ class RowSplitter {
       if (line[at] == '"') ++at;
       changed_ += line[at];
     }
-    if (at >= line.size()) return "a quote that does not end";
+    if (at >= line.size()) return "unterminated quote";
     for (++at; at < line.size() && !endsCell(line[at]); ++at)
       if (!isCellBlank(line[at])) return "text after a quote";
     add(std::string_view(changed_).substr(begin), cells);
@@ -110,10 +110,10 @@ class RowSplitter {
 
   char separator_;
   bool has_decimal_commas_;
-  std::string changed_;  // cells that differ from the line; at most as long as the line, twice
+  std::string changed_;  // modified cells; at most as long as the line, twice
 };
 
-/// Fit of a separator to rows: first by how many have one number of cells above one, then by the share of numbers.
+/// Score of a separator: first the number of rows with the same number of cells above one, then the share of numbers.
 struct Fit {
   std::size_t rows = 0, width = 0;
   double numbers = 0.0;
@@ -125,7 +125,8 @@ struct Fit {
 Fit fit(char separator, const std::vector<std::string_view>& rows) {
   RowSplitter splitter(separator, false);
   std::vector<std::string_view> cells;
-  std::map<std::size_t, std::pair<std::size_t, std::size_t>> widths;  // rows, and those of them that end in a separator
+  std::map<std::size_t, std::pair<std::size_t, std::size_t>> widths;  // rows by number of cells, and those of them that
+                                                                      // end in a separator
   std::size_t all = 0, numbers = 0, commas = 0, points = 0, thousands = 0;
   for (const std::string_view row : rows) {
     if (!splitter.split(row, cells).empty()) continue;
@@ -148,8 +149,8 @@ Fit fit(char separator, const std::vector<std::string_view>& rows) {
       result.width = count.first == count.second ? width - 1 : width;
       result.rows = count.first;
     }
-  if (separator == ',' && thousands == commas) points += commas;  // quoted "1,234": perhaps of thousands
-  if (commas > 0 && points > 0) numbers -= commas;                // then they are no decimal commas
+  if (separator == ',' && thousands == commas) points += commas;  // quoted "1,234" may have a thousands separator
+  if (commas > 0 && points > 0) numbers -= commas;                // then they are not decimal commas
   result.has_decimal_commas = commas > 0 && points == 0;
   result.numbers = all > 0 ? static_cast<double>(numbers) / static_cast<double>(all) : 0.0;
   return result;
@@ -159,7 +160,7 @@ bool holdsNumber(const std::vector<std::string_view>& cells) {
   return std::any_of(cells.begin(), cells.end(), [](std::string_view cell) { return parseCell(cell).has_value(); });
 }
 
-/// Returns the separator that the first line of some spreadsheets states ("sep=;").
+/// Returns the separator stated in the first line by some spreadsheets ("sep=;").
 std::optional<char> statedSeparator(std::string_view line) {
   if (line.size() != 5 || line.substr(0, 4) != "sep=") return std::nullopt;
   return line[4];
@@ -191,7 +192,7 @@ TextTable::TextTable(std::string_view text, std::string name) : text_(text), nam
       best = next;
     }
   }
-  // One column: decimal commas are what blanks leave together.
+  // A single column: commas within the words separated by blanks are decimal commas.
   if (best.rows == 0) {
     best.width = rows.empty() ? 0 : 1;
     best.has_decimal_commas = fit(kBlanks, rows).has_decimal_commas;

@@ -21,7 +21,7 @@ bool isEdge2(std::string_view tag) { return tag == "EDGE2" || tag == "EDGE"; }
 std::size_t toroPoseSize(int dimension) { return dimension == 2 ? 3 : 6; }
 std::size_t toroInformationSize(int dimension) { return dimension == 2 ? 6 : 21; }
 
-// Where the numbers of EDGE2 (11 12 22 33 13 23) stand in the upper triangle (11 12 13 22 23 33).
+// Index in the upper triangle (11 12 13 22 23 33) of the numbers of EDGE2 (11 12 22 33 13 23).
 constexpr std::array<std::size_t, 6> kUpperOfToro = {0, 1, 3, 5, 2, 4};
 
 Quaterniond toRotation(double roll, double pitch, double yaw) {
@@ -33,8 +33,8 @@ Quaterniond toRotation(double roll, double pitch, double yaw) {
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * M_PI); }
 
-// The sum and the difference of yaw and roll are each exact to rounding of the quaternion at every pitch; a quotient of
-// elements of the matrix is not near 90 deg, where one of the two loses its meaning.
+// The sum and the difference of yaw and roll are exact to rounding of the quaternion at every pitch. Quotients of
+// matrix elements are not near 90 deg, where one of the two angles is undetermined.
 Vector3d rollPitchYaw(const Quaterniond& q) {
   const double sum = 2.0 * std::atan2(q.x() + q.z(), q.w() - q.y());
   const double difference = 2.0 * std::atan2(q.z() - q.x(), q.w() + q.y());
@@ -43,8 +43,8 @@ Vector3d rollPitchYaw(const Quaterniond& q) {
   return {wrapped(0.5 * (sum - difference)), pitch, wrapped(0.5 * (sum + difference))};
 }
 
-// The upper triangle from one rotation to another that is `1 / scale` of it: the quaternion's vector is half the
-// rotation vector (scale 2), and back (0.5).
+// Converts the upper triangle to a rotation parameter scaled by 1 / scale: the quaternion's vector is half the rotation
+// vector (scale 2), and back (0.5).
 void scaleRotation(std::array<double, 21>& information, double scale) {
   std::size_t at = 0;
   for (int row = 0; row < 6; ++row) {

@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::size_t kTumColumns = 8;
 
-// Some writers print 1.403715273262142976e+09, which goes through a double and loses what it has lost already. `unit`:
-// of the stamp, s.
+// Parses a stamp. Some programs print 1.403715273262142976e+09, which is parsed as a double, whose precision it already
+// has. `unit`: of the stamp, s.
 std::optional<StampNs> parseStampIn(double unit, std::string_view text) {
   if (unit == 1.0)
     if (const auto stamp = parseStamp(text)) return stamp;
@@ -36,24 +36,24 @@ std::optional<StampNs> parseStampIn(double unit, std::string_view text) {
   return static_cast<StampNs>(std::llround(unit * *number * 1e9));
 }
 
-/// Whether a stamp is in seconds although a header may state ns: it has decimals and the size of seconds.
+/// Returns whether a stamp is in seconds although a header may state ns: it has decimals and the magnitude of seconds.
 bool isInSeconds(std::string_view stamp) {
   constexpr double kLargestSeconds = 1e11;
   return stamp.find('.') != std::string_view::npos && std::abs(parseNumber(stamp).value_or(0.0)) < kLargestSeconds;
 }
 
-/// s: the unit in which a stamp is one of the years 1971 to 2255; 1 where it is no number.
+/// Returns the unit, s, in which a stamp lies in the years 1971 to 2255; 1 if it is not a number.
 double guessUnit(std::string_view stamp) {
   const double number = std::abs(parseNumber(stamp).value_or(0.0));
   if (number < 3.2e10) return 1.0;
   return number < 3.2e13 ? 1e-3 : number < 3.2e16 ? 1e-6 : 1e-9;
 }
 
-/// Columns of the stamp, of x y z and of qx qy qz qw.
+/// Columns of the stamp, x y z and qx qy qz qw.
 struct PoseColumns {
   std::array<std::size_t, kTumColumns> columns = {0, 1, 2, 3, 4, 5, 6, 7};
   std::array<double, 3> metres = {1.0, 1.0, 1.0};  // units of x, y, z
-  std::optional<double> seconds;                   // unit of the stamp, as the header states it
+  std::optional<double> seconds;                   // unit of the stamp as stated in the header
   bool others_allowed = false;
 };
 
@@ -153,7 +153,7 @@ Trajectory parseTum(std::string_view text, const std::string& name, TumRepairs* 
     }
     if (!poses.empty() && pose->stamp <= poses.back().stamp) {
       if (repairs == nullptr)
-        throw UserError(where, "stamp " + printStamp(pose->stamp) + " is not later than the one before", "");
+        throw UserError(where, "stamp " + printStamp(pose->stamp) + " is not later than the previous one", "");
       if (pose->stamp < poses.back().stamp) ++counts.out_of_order;
     }
     poses.push_back(*pose);

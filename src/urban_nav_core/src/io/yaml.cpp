@@ -20,8 +20,8 @@ class Converter {
  public:
   explicit Converter(std::string file) : file_(std::move(file)) {}
 
-  // An alias is a node that hangs in the tree more than once: both limits also end documents that multiply or contain
-  // themselves.
+  // An alias is a node that occurs several times in the tree: the limits also stop documents with exponential or
+  // recursive expansion.
   YamlNode convert(const YAML::Node& node, int depth) {
     YamlNode out;
     out.line = node.Mark().line + 1;
@@ -44,7 +44,8 @@ class Converter {
  private:
   void append(YamlNode& out, const YAML::Node& key, const YAML::Node& value, int depth) {
     const int line = key.Mark().line + 1;
-    if (!key.IsScalar()) throw UserError(atLine(file_, line), "a key that is no word", "words in front of the colon");
+    if (!key.IsScalar())
+      throw UserError(atLine(file_, line), "a key that is not a word", "a word in front of the colon");
     out.map.emplace_back(key.Scalar(), convert(value, depth + 1));
     out.map.back().second.line = line;
   }
@@ -66,8 +67,7 @@ YamlNode readYaml(const std::string& path) { return parseYaml(readTextFile(path)
 
 YamlNode parseYaml(std::string_view text, const std::string& name) {
   std::string content(text);
-  // OpenCV's and EuRoC's files begin with %YAML:1.0, which is no directive of YAML. Blanks instead keep the lines'
-  // numbers.
+  // Files of OpenCV and EuRoC begin with %YAML:1.0, which is not a valid directive. Blanks preserve line numbers.
   if (content.rfind("%YAML", 0) == 0) std::fill_n(content.begin(), std::min(content.find('\n'), content.size()), ' ');
   try {
     return Converter(name).convert(YAML::Load(content), 0);

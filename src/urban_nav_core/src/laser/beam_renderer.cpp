@@ -14,7 +14,7 @@ bool BeamRenderer::find(StampNs stamp) {
   if (stretch_.begin <= stamp && stamp <= stretch_.end) return true;
   const Trajectory& poses = T_world_base_;
   if (poses.size() < 2 || stamp < poses.front().stamp || stamp > poses.back().stamp) return false;
-  // Most often the stretch after the one before; else it is looked for.
+  // Usually the next interval; otherwise it is searched for.
   const bool follows =
       next_ > 0 && next_ + 1 < poses.size() && poses[next_].stamp <= stamp && stamp <= poses[next_ + 1].stamp;
   if (follows) {
@@ -28,7 +28,7 @@ bool BeamRenderer::find(StampNs stamp) {
     begin(poses[next_ - 1], poses[next_]);
     return true;
   }
-  for (const std::size_t i : {next_ - 1, next_})  // beside a gap
+  for (const std::size_t i : {next_ - 1, next_})  // at a gap
     if (poses[i].stamp == stamp) {
       begin(poses[i], poses[i]);
       return true;

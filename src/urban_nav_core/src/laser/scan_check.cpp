@@ -10,13 +10,13 @@ namespace urban_nav_core {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kMostTurn = 2.0 * kPi * 1.02;  // rad: some drivers count the first beam twice
+constexpr double kMostTurn = 2.0 * kPi * 1.02;  // rad: some drivers repeat the first beam
 constexpr std::size_t kFewRanges = 10;
-constexpr double kMostMedian = 150.0;  // m: no surroundings are so far away on median
-constexpr double kLeastRange = 0.2;    // m, of a median
-constexpr double kUsualRange = 1.0;    // m, of a median: hardly a robot has less around it
+constexpr double kMostMedian = 150.0;  // m: implausible median
+constexpr double kLeastRange = 0.2;    // m, least median
+constexpr double kUsualRange = 1.0;    // m, typical least median around a robot
 constexpr double kMostReach = 130.0;   // m, of planar lasers outdoors
-constexpr double kNoReach = 2e5;       // in any unit: no limit
+constexpr double kNoReach = 2e5;       // in any unit: no limit stated
 
 double medianRange(const PlanarScan& scan) {
   std::vector<float> valid;

@@ -23,7 +23,7 @@ void forEachPart(std::size_t parts, const std::function<void(std::size_t)>& work
       if (!first || part < first->first) first.emplace(part, std::current_exception());
     }
   };
-  // TBB would hand on whichever exception came first by the clock.
+  // TBB would rethrow whichever exception was thrown first in time.
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, parts, 1),
                     [&guarded](const tbb::blocked_range<std::size_t>& range) {
                       for (std::size_t part = range.begin(); part != range.end(); ++part) guarded(part);

@@ -11,15 +11,19 @@
 
 namespace urban_nav_core {
 
+std::string findParameterDocument(const std::string& package) {
+  return std::filesystem::exists(package + "/PARAMETERS.md") ? "PARAMETERS.md" : "README.md";
+}
+
 void writeDocuments(const std::string& package, const std::vector<DocumentedTable>& tables) {
-  const std::string path = package + "/README.md";
-  std::string readme = readTextFile(path);
-  for (const DocumentedTable& table : tables) readme = insertMarkdown(readme, path, table.stage, table.rows);
+  const std::string path = package + "/" + findParameterDocument(package);
+  std::string text = readTextFile(path);
+  for (const DocumentedTable& table : tables) text = insertMarkdown(text, path, table.stage, table.rows);
   for (const DocumentedTable& table : tables) {
     const std::string yaml = package + "/config/" + table.stage + ".yaml";
     if (std::filesystem::exists(yaml)) writeAtomically(yaml, printYaml(table.stage, table.rows));
   }
-  writeAtomically(path, readme);
+  writeAtomically(path, text);
 }
 
 int documentParameters(int argc, char** argv, const std::vector<DocumentedTable>& tables) {

@@ -7,12 +7,12 @@
 namespace urban_nav_core {
 namespace {
 
-using OldWords = std::map<std::string, std::string>;  // present words by old ones
+using OldWords = std::map<std::string, std::string>;  // present values by old ones
 
-/// Old name without its words: "queue" or "loop_metric.queue".
+/// Returns the old name without its values: "queue" or "loop_metric.queue".
 std::string nameWithoutWords(const std::string& old_name) { return old_name.substr(0, old_name.find(':')); }
 
-/// OldWords of an old name, "forget: delete = none, keep = all".
+/// Returns the OldWords of an old name, "forget: delete = none, keep = all".
 OldWords parseOldWords(const std::string& old_name) {
   OldWords words;
   std::string word, present;
@@ -33,7 +33,7 @@ OldWords parseOldWords(const std::string& old_name) {
   return words;
 }
 
-/// "loop_metric.queue" of either form of an old name.
+/// Returns "loop_metric.queue" for either form of an old name.
 std::string fullOldName(const std::string& stage, const std::string& old_name) {
   const std::string name = nameWithoutWords(old_name);
   return name.find('.') == std::string::npos ? fullName(stage, name) : name;
@@ -59,7 +59,7 @@ std::string valueText(const Assignment& assignment) {
   return assignment.is_text ? std::get<std::string>(assignment.value) : printValue(assignment.value);
 }
 
-/// Replaces a word that has another name today; returns " = none" if it did. Typed words of switches become switches.
+/// Replaces a renamed value; returns " = none" if it did. Words that became booleans are converted.
 std::string replaceOldWord(const PresentKey& key, Assignment& assignment) {
   const std::string* word = std::get_if<std::string>(&assignment.value.base());
   const auto present = word ? key.words.find(*word) : key.words.end();
@@ -74,7 +74,7 @@ std::string replaceOldWord(const PresentKey& key, Assignment& assignment) {
 RenamedAssignments replaceOldNames(std::vector<Assignment> assignments, const std::vector<StageRows>& tables) {
   const std::map<std::string, PresentKey> keys = presentKeys(tables);
   RenamedAssignments renamed;
-  std::map<std::string, Assignment> earlier;  // by present name: the last one under an old name, as it was given
+  std::map<std::string, Assignment> earlier;  // by present name: last assignment under an old name, as given
   for (Assignment& assignment : assignments) {
     const std::string old_name = fullName(assignment.stage, assignment.name);
     const auto key = keys.find(old_name);
@@ -90,7 +90,7 @@ RenamedAssignments replaceOldNames(std::vector<Assignment> assignments, const st
       if (other_name != old_name && valueText(other->second) != valueText(assignment))
         renamed.warnings.push_back(assignment.where + ": " + old_name + " = " + valueText(assignment) + " and " +
                                    other_name + " = " + valueText(other->second) + " (" + other->second.where +
-                                   ") are one parameter, " + present + "; the last one counts");
+                                   ") are one parameter, " + present + "; the last one is used");
       other->second = assignment;
     }
     assignment.stage = key->second.stage;

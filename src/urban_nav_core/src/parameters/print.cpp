@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kWidth = 110;
 constexpr const char* kHelpIndent = "      ";
 
-// Breaks prose at blanks so that each line with its beginning fits. `first`: of the first line, if it is another one.
+// Wraps prose to the line length, each line with its indent. `first`: indent of the first line, if different.
 std::string wrapped(const std::string& prose, const std::string& beginning, const std::string& first = "") {
   std::string out, line = first.empty() ? beginning : first;
   std::size_t at = 0;
@@ -48,14 +48,14 @@ const Setting* find(const std::vector<Setting>& settings, const std::string& nam
   return it == settings.end() ? nullptr : &*it;
 }
 
-// A pipe would end the cell.
+// Escapes pipes, which would end the cell.
 std::string cell(const std::string& text) {
   std::string out;
   for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
   return " " + out + " |";
 }
 
-// Table of the rows for these readers; empty without such rows.
+// Returns the table of the rows for an audience; empty without such rows.
 std::string markdownTable(const std::string& stage, const std::vector<RowInfo>& rows, Audience audience) {
   std::string out;
   for (const RowInfo& row : rows) {
@@ -69,7 +69,7 @@ std::string markdownTable(const std::string& stage, const std::vector<RowInfo>& 
   return out.empty() ? "" : head + "\n|---|---|---|---|---|---|\n" + out;
 }
 
-// "  swf_vo.window = 25  (--set swf_vo.window=25)"
+// Returns "  swf_vo.window = 25  (--set swf_vo.window=25)".
 std::string valueLine(const std::string& stage, const RowInfo& row, const std::vector<Setting>& settings) {
   const Setting* setting = find(settings, row.name);
   return "  " + fullName(stage, row.name) + " = " + printValue(setting != nullptr ? setting->value : row.standard) +
@@ -82,7 +82,7 @@ std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows
 
 namespace {
 
-/// Returns a value as YAML 1.1 reads it: 1e-05 would be a text there, 1.0e-05 is a number.
+/// Returns a value for YAML 1.1, in which 1e-05 is a string and 1.0e-05 a number.
 std::string yamlValue(const ParameterValue& value) {
   std::string text = printValue(value);
   if (!std::holds_alternative<double>(value.base()) || text.find('.') != std::string::npos) return text;

@@ -21,7 +21,7 @@ std::vector<std::string> differingValues(const std::vector<const std::vector<Set
         if (first == nullptr) first = &setting;
         else if (printValue(first->value) != printValue(setting.value))
           sentences.push_back(described(*first) + " and " + described(setting) +
-                              " describe the same thing and should be equal");
+                              " are the same quantity and should be equal");
       }
   }
   return sentences;

@@ -13,7 +13,7 @@
 namespace urban_nav_core {
 namespace {
 
-// Levenshtein's distance: insertions, deletions and substitutions between two names.
+// Returns the Levenshtein distance: insertions, deletions and substitutions between two names.
 std::size_t editDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -30,7 +30,7 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 }
 
 std::string nearest(const std::string& wanted, const std::vector<std::string>& known) {
-  constexpr std::size_t kLongest = 100;  // the distance costs the product of the lengths
+  constexpr std::size_t kLongest = 100;  // longer names are not compared: the cost is the product of the lengths
   const std::string head = wanted.substr(0, kLongest);
   const auto closer = [&head](const std::string& a, const std::string& b) {
     return editDistance(head, a) < editDistance(head, b);
@@ -61,7 +61,7 @@ std::optional<ParameterValue> readText(const RowInfo& row, const std::string& te
   return std::nullopt;
 }
 
-// YAML readers, the parameter server's among them, take the words on and off for booleans.
+// YAML parsers, including that of the parameter server, convert the words on and off to booleans.
 ParameterValue wordForFlag(const RowInfo& row, const ParameterValue& value) {
   const auto* flag = std::get_if<bool>(&value.base());
   if (row.type != ParameterType::Word || flag == nullptr) return value;
@@ -73,7 +73,8 @@ ParameterValue checked(const RowInfo& row, const Assignment& assignment) {
                                         : std::optional<ParameterValue>(wordForFlag(row, assignment.value));
   if (value && isAllowed(row, *value)) return *value;
   const std::string found = assignment.is_text ? std::get<std::string>(assignment.value) : printValue(assignment.value);
-  throw UserError(assignment.where, fullName(assignment.stage, assignment.name) + " = " + found, allowed(row));
+  throw UserError(assignment.where, fullName(assignment.stage, assignment.name) + " = " + found,
+                  "allowed " + allowed(row));
 }
 
 void append(std::vector<Assignment>& assignments, const std::string& stage, const YamlNode& rows,
@@ -84,7 +85,7 @@ void append(std::vector<Assignment>& assignments, const std::string& stage, cons
     const std::string full = fullName(stage, key);
     if (node.kind != YamlNode::Kind::Scalar)
       throw UserError(where, full + " is not a single value", "one value after the colon");
-    if (!seen.insert(key).second) throw UserError(where, full + " stands twice", "");
+    if (!seen.insert(key).second) throw UserError(where, "duplicate key " + full, "");
     assignments.push_back({stage, key, node.scalar, true, where});
   }
 }
@@ -97,7 +98,7 @@ std::vector<Assignment> fromYaml(const YamlNode& root, const std::string& file) 
   YamlNode without_stage;
   std::set<std::string> seen;
   for (const auto& [stage, node] : root.map) {
-    if (!seen.insert(stage).second) throw UserError(atLine(file, node.line), stage + " stands twice", "");
+    if (!seen.insert(stage).second) throw UserError(atLine(file, node.line), "duplicate key " + stage, "");
     if (node.kind == YamlNode::Kind::Map) {
       append(assignments, stage, node, file);
     } else if (node.kind != YamlNode::Kind::Null) {
@@ -145,7 +146,7 @@ std::vector<Setting> resolve(const std::string& stage, const std::vector<RowInfo
     if (row == rows.end()) {
       const std::string full_name = fullName(stage, assignment.name), replacement = findReplacement(full_name);
       if (!replacement.empty()) throw UserError(assignment.where, full_name + " was removed: " + replacement, "");
-      throw UserError(assignment.where, full_name + " is no parameter",
+      throw UserError(assignment.where, full_name + " is not a parameter",
                       "the parameters that --help-all lists; "
                       "nearest: " +
                           fullName(stage, nearest(assignment.name, listNames(rows))));
@@ -164,7 +165,7 @@ void refuseUnknownStages(const std::vector<Assignment>& assignments, const std::
     for (const std::string& stage : stages)
       known += (known.empty() ? "" : ", ") + (stage.empty() ? std::string("none") : stage);
     const std::string found =
-        assignment.stage.empty() ? assignment.name + " has no stage in front" : assignment.stage + " is no stage";
+        assignment.stage.empty() ? assignment.name + " has no stage prefix" : assignment.stage + " is not a stage";
     throw UserError(assignment.where, found, known + "; nearest: " + nearest(assignment.stage, stages));
   }
 }

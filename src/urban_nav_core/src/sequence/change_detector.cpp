@@ -10,8 +10,8 @@ namespace urban_nav_core {
 
 namespace {
 
-constexpr double kReference = 0.5;    // half of the smallest change that is to be found, in sigmas
-constexpr double kOvershoot = 1.166;  // 2 x 0.583, mean excess of a normal walk over a boundary (Siegmund 1985)
+constexpr double kReference = 0.5;    // half of the smallest change to be detected, in sigmas
+constexpr double kOvershoot = 1.166;  // 2 x 0.583, mean excess of a normal random walk over a boundary (Siegmund 1985)
 
 bool isMeasurement(const ConstantMeasurement& measurement) {
   return std::isfinite(measurement.value) && measurement.sigma > 0.0 && std::isfinite(measurement.sigma);

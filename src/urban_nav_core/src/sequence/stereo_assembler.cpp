@@ -12,7 +12,7 @@ namespace urban_nav_core {
 
 namespace {
 
-/// Pixels without gaps between the rows, which the image then owns.
+/// Reads or writes the pixels without gaps between rows; the image then owns them.
 void archiveImage(Archive& archive, OwnedImage& image) {
   int width = image.view.width, height = image.view.height;
   auto pixels = std::make_shared<std::vector<std::uint8_t>>();
@@ -21,7 +21,7 @@ void archiveImage(Archive& archive, OwnedImage& image) {
   archive(image.stamp, width, height, *pixels);
   archive.require(
       width >= 0 && height >= 0 && pixels->size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
-      "an image is of another size");
+      "an image has another size");
   if (!archive.isReading()) return;
   image.view = pixels->empty() ? ImageView{} : ImageView{pixels->data(), width, height, width};
   image.owner = pixels;

@@ -16,7 +16,7 @@ Vector3d centre(const std::vector<Pose>& poses) {
   return sum / static_cast<double>(poses.size());
 }
 
-// The rotation R that maximises trace(R^T M), a proper one (Umeyama, eq. 40-43).
+// Returns the rotation R that maximises trace(R^T M), with det R = 1 (Umeyama, eq. 40-43).
 Matrix3d bestRotation(const Matrix3d& M) {
   const Eigen::JacobiSVD<Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Vector3d sign = Vector3d::Ones();
@@ -35,8 +35,8 @@ Similarity umeyama(const std::vector<Pose>& truth, const std::vector<Pose>& esti
     covariance += (truth[i].t() - mean_truth) * p.transpose() / n;
     variance += p.squaredNorm() / n;
   }
-  // What the positions leave open (a turn about their line) the first heading decides: with so small a weight that it
-  // does not show where the positions have a say, and still far above rounding where they have none.
+  // Weight of the first heading, which determines the rotation about the line of collinear positions: negligible if the
+  // positions determine it, but far above rounding otherwise.
   constexpr double kTieBreak = 1e-9;
   const double size = covariance.norm();
   const Matrix3d heading = (truth.front().q() * estimate.front().q().conjugate()).toRotationMatrix();

@@ -14,7 +14,7 @@ namespace {
 constexpr StampNs kInterpolationGap = 100000000;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-// Sums of stamps of files can leave the range; such a pose has no partner.
+// The sum may overflow with stamps from files; such a pose is not associated.
 std::optional<StampNs> shifted(StampNs stamp, StampNs offset) {
   StampNs sum = 0;
   return __builtin_add_overflow(stamp, offset, &sum) ? std::nullopt : std::optional<StampNs>(sum);
@@ -25,7 +25,7 @@ StampNs saturated(double nanoseconds) {
   return static_cast<StampNs>(std::llround(std::clamp(nanoseconds, -kLimit, kLimit)));
 }
 
-// How fast a trajectory moves, on a grid of times. NaN-free; zero before the first and after the last pose.
+// Speed of a trajectory, sampled at regular times. Free of NaN; zero before the first and after the last pose.
 struct Motion {
   std::vector<double> speed;  ///< m/s
   std::vector<double> rate;   ///< rad/s
@@ -52,7 +52,7 @@ Motion computeMotion(const Trajectory& trajectory, double step, std::size_t samp
   return motion;
 }
 
-// Pearson's correlation of b, shifted by `lag` samples, with a over their overlap; zero where either does not vary.
+// Returns Pearson's correlation of a and b, shifted by `lag` samples, over their overlap; zero if either is constant.
 double correlation(const std::vector<double>& a, const std::vector<double>& b, std::ptrdiff_t lag) {
   const std::ptrdiff_t begin = std::max<std::ptrdiff_t>(0, lag);
   const std::ptrdiff_t end =
@@ -139,7 +139,7 @@ std::optional<TimeOffset> findOffset(const Trajectory& truth, const Trajectory& 
   const double step = std::max(kFinest, std::max(long_truth, long_estimate) / kSamples);
   const auto samples = [step](double seconds) { return static_cast<std::size_t>(seconds / step); };
 
-  double shift = 0.0, height = 0.0;  // after the one that lines up the first stamps
+  double shift = 0.0, height = 0.0;  // relative to the shift that aligns the first stamps
   if (samples(long_truth) >= 3 && samples(long_estimate) >= 3) {
     const Peak peak =
         bestLag(computeMotion(truth, step, samples(long_truth)), computeMotion(estimate, step, samples(long_estimate)));
@@ -147,7 +147,7 @@ std::optional<TimeOffset> findOffset(const Trajectory& truth, const Trajectory& 
   }
   TimeOffset result;
   result.offset = saturated(secondsBetween(estimate.front().stamp, truth.front().stamp) * 1e9);
-  StampNs exact = 0;  // a double holds an epoch to 0.2 us only
+  StampNs exact = 0;  // a double resolves an epoch to 0.2 us only
   if (!__builtin_sub_overflow(truth.front().stamp, estimate.front().stamp, &exact)) result.offset = exact;
   result.offset = shifted(result.offset, saturated(shift * 1e9)).value_or(result.offset);
   result.correlation = height;

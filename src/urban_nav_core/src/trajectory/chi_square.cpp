@@ -15,7 +15,7 @@ double logGamma(double a) {
   return ::lgamma_r(a, &sign);  // std::lgamma writes a global
 }
 
-// The regularised lower incomplete gamma function by its series, for x < a + 1 (Abramowitz and Stegun 6.5.29).
+// Regularised lower incomplete gamma function by its series, for x < a + 1 (Abramowitz and Stegun 6.5.29).
 double lowerSeries(double a, double x) {
   double term = 1.0 / a, sum = term;
   for (int n = 1; n < kTerms && term > kEnd * sum; ++n) {

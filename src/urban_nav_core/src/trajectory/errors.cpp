@@ -14,14 +14,14 @@ namespace {
 constexpr double kDegree = M_PI / 180.0;
 constexpr double kStanding = 0.005;  // m a frame
 
-// The way along the path from the first pose to each, m.
+// Returns the path length from the first pose to each, m.
 std::vector<double> distances(const std::vector<Pose>& poses) {
   std::vector<double> along(poses.size(), 0.0);
   for (std::size_t i = 1; i < poses.size(); ++i) along[i] = along[i - 1] + distanceBetween(poses[i - 1], poses[i]);
   return along;
 }
 
-// The first pose at least `metres` along the path after `from`, or the number of poses.
+// Returns the first pose at least `metres` along the path after `from`, or the number of poses.
 std::size_t firstAfter(const std::vector<double>& along, std::size_t from, double metres) {
   const auto begin = along.begin() + static_cast<std::ptrdiff_t>(from);
   return static_cast<std::size_t>(std::lower_bound(begin, along.end(), along[from] + metres) - along.begin());

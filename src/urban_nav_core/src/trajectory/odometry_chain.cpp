@@ -11,9 +11,9 @@
 namespace urban_nav_core {
 namespace {
 
-constexpr StampNs kLongestGap = 1'000'000'000;  // ns between frames that odometry bridges for a moment in between
-constexpr StampNs kOutside = 100'000'000;  // ns before the first and after the last frame that their motion is good for
-constexpr std::size_t kBlock = 256;        // steps; a way has one product of matrices for each
+constexpr StampNs kLongestGap = 1'000'000'000;  // ns between frames that are interpolated
+constexpr StampNs kOutside = 100'000'000;       // ns before the first and after the last frame that are extrapolated
+constexpr std::size_t kBlock = 256;             // steps per block; a path requires one matrix product per block
 
 Pose along(const StampedPose& a, const StampedPose& b, StampNs stamp) {
   return interpolate(a.pose, b.pose, static_cast<double>(stamp - a.stamp) / static_cast<double>(b.stamp - a.stamp));
@@ -30,7 +30,7 @@ bool OdometryChain::append(const RelativePose& step) {
     own_.push_back(Matrix6d::Zero());
   }
   const Pose T_first_from = trajectory_.back().pose;
-  const std::size_t number = own_.size() - 1;  // of the step
+  const std::size_t number = own_.size() - 1;  // index of the step
   if (number % kBlock == 0) blocks_.push_back({T_first_from, {}});
   Block& block = blocks_.back();
   const bool has_drift = !step.drift_covariance.isZero(0.0);

@@ -15,7 +15,8 @@ std::string join(const Error::Parts& parts) {
   };
   append(parts.where, "");
   append(parts.found, "");
-  append(parts.allowed, "allowed ");
+  const bool has_own_word = parts.allowed.rfind("allowed ", 0) == 0;
+  append(parts.allowed, has_own_word ? "" : "expected ");
   return text;
 }
 

@@ -29,7 +29,7 @@ double secondsBetween(StampNs earlier, StampNs later) {
 }
 
 std::string printStamp(StampNs stamp) {
-  // The most negative stamp has no positive counterpart of its own type.
+  // The most negative stamp has no positive counterpart in its type.
   const std::uint64_t size = stamp < 0 ? 0U - static_cast<std::uint64_t>(stamp) : static_cast<std::uint64_t>(stamp);
   std::string decimals = std::to_string(size % kNanosecondsPerSecond);
   decimals.insert(0, kDecimals - decimals.size(), '0');

@@ -20,7 +20,7 @@
 namespace urban_nav_core {
 namespace {
 
-// EuRoC's V1_01: the two raw cameras and their places on the body.
+// EuRoC's V1_01: the two raw cameras and their poses on the body.
 RawCamera left() {
   return {{458.654, 457.296, 367.215, 248.375, 752, 480},
           Distortion({-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05, 0.0, 0.0, 0.0, 0.0})};
@@ -147,7 +147,7 @@ TEST(Rectify, TheIdentityCopiesEveryPixelTheLastRowAndColumnToo) {
   cv::Mat raw(241, 333, CV_8U);
   cv::theRNG().state = 3;
   cv::randu(raw, 0, 256);
-  // The copy ends with its last pixel, so that a read beyond it is seen by the address sanitizer.
+  // The copy ends with its last pixel, so that the address sanitizer detects reads beyond it.
   const std::vector<std::uint8_t> exact(raw.datastart, raw.dataend);
   std::vector<std::uint8_t> out;
   map.remap({exact.data(), 333, 241, 333}, out);

@@ -13,7 +13,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Blocks 7 (2), 3 (1), 9 (3), linked with each other.
+// Blocks 7 (2), 3 (1), 9 (3), all correlated.
 Information linked() {
   Information information({{7, 2}, {3, 1}, {9, 3}});
   MatrixXd A(6, 6);

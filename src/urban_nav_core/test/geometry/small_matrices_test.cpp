@@ -44,7 +44,7 @@ TEST(SmallMatrices, CholeskyFactorMultipliesBack) {
 }
 
 TEST(SmallMatrices, SolutionsOfSymmetricMatricesMultiplyBack) {
-  // Of any signature.
+  // Indefinite.
   const Matrix6d B = wavyMatrix<6>(), A = B + B.transpose();
   const Vector6d b = B.col(2);
   EXPECT_LT((A * solveByLdlt<6, 1>(A, b) - b).norm(), 1e-10);

@@ -18,7 +18,7 @@ Vector3d randomAxis(std::mt19937& random) {
   return Vector3d(normal(random), normal(random), normal(random)).normalized();
 }
 
-// From where series take over from quotients, to just before half a turn.
+// From the transition between series and quotients to just below half a turn.
 const double kAngles[] = {0.0,  1e-300, 1e-12, 1e-8, 1e-5, 1e-4, 1.1e-4, 0.01, 0.29, 0.31,
                           0.69, 0.71,   0.79,  0.81, 1.19, 1.21, 2.0,    3.0,  3.14, M_PI - 1e-7};
 

@@ -46,7 +46,7 @@ std::set<RowColumn> places(const std::vector<Corner>& corners) {
   return result;
 }
 
-/// The definition, one pixel at a time: the smallest threshold at which no nine neighbours stand out.
+/// Definition for a single pixel: the smallest threshold at which it is not a corner.
 int plainScore(const cv::Mat& image, int v, int u) {
   const int circle[16][2] = {{0, 3},  {1, 3},   {2, 2},   {3, 1},   {3, 0},  {3, -1}, {2, -2}, {1, -3},
                              {0, -3}, {-1, -3}, {-2, -2}, {-3, -1}, {-3, 0}, {-3, 1}, {-2, 2}, {-1, 3}};

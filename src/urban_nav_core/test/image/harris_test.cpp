@@ -38,7 +38,7 @@ StructureTensor plain(const cv::Mat& image, int u, int v) {
 }
 
 TEST(Harris, IsThePlainSumEverywhereUpToTheMargin) {
-  // The copy ends with its last pixel, so that a read beyond it is seen by the address sanitizer.
+  // The copy ends with its last pixel, so that the address sanitizer detects reads beyond it.
   const cv::Mat image = randomImage(29, 21, 3);
   std::vector<std::uint8_t> exact(image.datastart, image.dataend);
   const ImageView tight{exact.data(), 29, 21, 29};

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kWidth = 64;
 
-/// A corner as a lens of this blur shows it: where two edges cross.
+/// Corner of two edges, blurred by a lens.
 std::vector<std::uint8_t> corner(double sigma) {
   const auto edge = [&](double x) { return 0.5 + 0.5 * std::erf(x / (std::sqrt(2.0) * sigma)); };
   std::vector<std::uint8_t> pixels(kWidth * kWidth);
@@ -25,7 +25,7 @@ std::vector<std::uint8_t> corner(double sigma) {
 
 ImageView viewOfPixels(const std::vector<std::uint8_t>& pixels) { return {pixels.data(), kWidth, kWidth, kWidth}; }
 
-// A corner moves into its bright side as it is blurred, and a template that is blurred as well moves along.
+// Blur moves a corner into its bright side, and an equally blurred template moves along.
 TEST(PatchBlur, TakesTheDisplacementOfACornerAway) {
   const std::vector<std::uint8_t> sharp = corner(0.6), soft = corner(std::sqrt(0.36 + 1.0));
   const auto source = cutSource(viewOfPixels(sharp), 32, 32);

@@ -18,7 +18,7 @@ struct Picture {
   ImageView view() const { return {pixels.data(), width, height, width}; }
 };
 
-/// Waves of 4 to 30 px in all directions: known exactly at any place.
+/// Waves of 4 to 30 px in all directions, with an exact value at any position.
 class Texture {
  public:
   explicit Texture(unsigned seed) {
@@ -98,7 +98,7 @@ TEST(Patch, RefinementHasNoBiasAtAnyPhase) {
 TEST(Patch, CovarianceIsThatOfTheErrors) {
   for (const double noise : {1.0, 3.0, 6.0}) {
     const Statistics s = alignShifted(0.3, 0.6, noise, 1.0, 0.0, 400);
-    // template and image each contribute once what is stated: 2 x 2 dimensions
+    // template and image each contribute the stated variance once: 2 x 2 dimensions
     EXPECT_GT(s.normalised, 2.8) << noise;
     EXPECT_LT(s.normalised, 5.2) << noise;
   }
@@ -170,8 +170,8 @@ TEST(Patch, WarpFollowsScaleAndTurn) {
 }
 
 TEST(Patch, PerspectiveIsTakenIntoTheTemplate) {
-  // Around a place on a wall alongside, pixels further ahead are seen less enlarged: an affine template is off, to the
-  // second order, alike for all such places.
+  // On a wall alongside, pixels further ahead are enlarged less: an affine template has a second-order error that is
+  // the same at all such positions.
   PatchWarp warp(Eigen::Matrix2d(Eigen::Vector2d(1.25, 1.15).asDiagonal()), {0.02, -0.005});
   const Eigen::Matrix2d back = warp.A.inverse();
   Eigen::Vector2d bias = Eigen::Vector2d::Zero(), without = Eigen::Vector2d::Zero();
@@ -269,7 +269,7 @@ TEST(Patch, ALaterViewTellsHowTheSurfaceSlants) {
     EXPECT_LT(estimate.covariance.determinant(), 0.5 * std::pow(0.3, 4));
     sum += estimate.mean;
     ++count;
-    // from the slant itself nothing more is to be seen but itself, and one who is sure already does not change his mind
+    // an observation at the present slant must not change it, in particular if its variance is small
     Slope sure;
     sure.see(1e9 * Eigen::Vector2d(0.1, 0.1), 1e9 * Eigen::Matrix2d::Identity());
     seeSlant(second.view(), source, made, a, direction, {0.0, 0.0}, sure);

@@ -10,7 +10,7 @@
 namespace urban_nav_core {
 namespace {
 
-/// Of the whole range of grey levels, so that sums reach their largest values.
+/// Covers the whole range of grey levels, so that sums reach their largest values.
 std::vector<std::uint8_t> drawPixels(int width, int height, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<std::uint8_t> pixels;

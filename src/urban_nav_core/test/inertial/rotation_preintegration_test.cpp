@@ -34,7 +34,7 @@ TEST(RotationPreintegration, AnotherBiasNeedsNoSecondIntegration) {
   EXPECT_GT(integrated.rotation().angularDistance(again.rotation()), 5e-4);
 }
 
-// The residual is integrated large by a turn of 40 deg and a bias that is off by 0.1 rad/s.
+// A turn of 40 deg and a bias error of 0.1 rad/s make the residual large.
 TEST(RotationPreintegration, ResidualHasExactJacobiansFarFromZero) {
   const RotationPreintegration integrated = integrate(1.5, Vector3d(0.01, 0.02, -0.01));
   const Quaterniond from = expSo3({0.3, -0.8, 1.9});

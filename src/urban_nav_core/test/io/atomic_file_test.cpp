@@ -114,7 +114,7 @@ TEST_F(AtomicFileTest, APipeIsWrittenAndNotReplaced) {
 TEST_F(AtomicFileTest, AnotherWriterIsGivenNoPipe) {
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
   EXPECT_EQ(catchError([&] { const PartialFile partial(path("pipe")); }),
-            path("pipe") + ": is a device or a pipe: allowed a file");
+            path("pipe") + ": is a device or a pipe: expected a file");
   EXPECT_TRUE(fs::is_fifo(path("pipe")));
 }
 

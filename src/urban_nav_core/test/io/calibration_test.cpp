@@ -60,14 +60,14 @@ TEST(Calibration, KittiHasAPairInColour) {
   text.replace(text.find("P0:"), 3, "P2:").replace(text.find("P1:"), 3, "P3:");
   EXPECT_NEAR(parseKittiCalibration(text, "calib.txt", 1226, 370, KittiPair::Colour).baseline, 0.53715, 1e-5);
   EXPECT_EQ(catchError([] { parseKittiCalibration(kKitti, "calib.txt", 1226, 370, KittiPair::Colour); }),
-            "calib.txt: no line P2: allowed `P2: ` and `P3: ` with twelve numbers each");
+            "calib.txt: no line P2: expected `P2: ` and `P3: ` with twelve numbers each");
 }
 
 TEST(Calibration, KittiNamesWhatIsWrong) {
   EXPECT_EQ(catchError([] { parseKittiCalibration("P0: 1 2 3\n", "calib.txt", 10, 10); }),
-            "calib.txt:1: P0 with 3 numbers: allowed 12: a 3x4 matrix, row by row");
+            "calib.txt:1: P0 with 3 numbers: expected 12: a 3x4 matrix, row by row");
   EXPECT_EQ(catchError([] { parseKittiCalibration("Tr: 1 2 3\n", "calib.txt", 10, 10); }),
-            "calib.txt: no line P0: allowed `P0: ` and `P1: ` with twelve numbers each");
+            "calib.txt: no line P0: expected `P0: ` and `P1: ` with twelve numbers each");
   std::string swapped = kKitti;
   swapped.replace(swapped.find("-3.798"), 6, "+3.798");
   EXPECT_NE(catchError([&] { parseKittiCalibration(swapped, "calib.txt", 10, 10); }), "");
@@ -90,11 +90,11 @@ TEST(Calibration, CameraInfoNamesWhatIsWrong) {
     text.replace(text.find(from), from.size(), to);
     return catchError([&text] { parseCameraInfo(text, "left.yaml"); });
   };
-  EXPECT_EQ(with("image_width: 512", "image_width: 0"), "left.yaml:1: image_width = 0: allowed 1...100000 (px)");
+  EXPECT_EQ(with("image_width: 512", "image_width: 0"), "left.yaml:1: image_width = 0: expected 1...100000 (px)");
   EXPECT_EQ(with("image_width: 512", "image_wide: 512"), "left.yaml:1: no key `image_width`");
-  EXPECT_EQ(with("[390, 0,", "[390,"), "left.yaml:7: data has 8 elements: allowed 9 numbers in a list");
+  EXPECT_EQ(with("[390, 0,", "[390,"), "left.yaml:7: data has 8 elements: expected 9 numbers in a list");
   EXPECT_NE(with("[390, 0,", "[-390, 0,"), "");
-  EXPECT_EQ(with("data: [1, 0, 0, 0, 1", "data: [1, 0, 0, 0, 7"), "left.yaml: rectification_matrix is no rotation");
+  EXPECT_EQ(with("data: [1, 0, 0, 0, 1", "data: [1, 0, 0, 0, 7"), "left.yaml: rectification_matrix is not a rotation");
   EXPECT_NE(with("plumb_bob", "fish"), "");
 }
 
@@ -114,11 +114,11 @@ TEST(Calibration, EurocGivesCameraAndExtrinsics) {
 TEST(Calibration, EurocNamesWhatIsWrong) {
   std::string text = kEuroc;
   text.replace(text.find("0.999660727178"), 14, "0.099660727178");
-  EXPECT_EQ(catchError([&] { parseEurocCamera(text, "sensor.yaml"); }), "sensor.yaml:6: T_BS is no rotation");
+  EXPECT_EQ(catchError([&] { parseEurocCamera(text, "sensor.yaml"); }), "sensor.yaml:6: T_BS is not a rotation");
   text = kImu;
   text.replace(text.find("1.6968e-04"), 10, "-1");
   EXPECT_EQ(catchError([&] { parseEurocImu(text, "sensor.yaml"); }),
-            "sensor.yaml:6: gyroscope_noise_density = -1: allowed 0 or more");
+            "sensor.yaml:6: gyroscope_noise_density = -1: expected 0 or more");
 }
 
 TEST(Calibration, ReadsRealFiles) {

@@ -50,7 +50,7 @@ TEST(CovarianceCsv, NamesFileAndLine) {
   std::string text = covariances();
   text.replace(text.find("LOST"), 4, "GONE");
   EXPECT_EQ(catchError([&] { parseCovariances(text, "c.csv"); }),
-            "c.csv:2: status GONE: allowed OK, DEGRADED, LOST, RECOVERED");
+            "c.csv:2: status GONE: expected OK, DEGRADED, LOST, RECOVERED");
   Matrix6d lopsided = Matrix6d::Identity();
   lopsided(0, 1) = 0.1;
   const std::string header = covarianceHeader();
@@ -65,7 +65,7 @@ TEST(CovarianceCsv, NamesFileAndLine) {
       "");
   EXPECT_NE(catchError([&] {
               parseCovariances(relatives(), "c.csv");
-            }).find("39 columns: allowed 38: stamp_ns,status,c11..."),
+            }).find("39 columns: expected 38: stamp_ns,status,c11..."),
             std::string::npos);
 }
 

@@ -31,15 +31,15 @@ TEST(Csv, TakesAHeaderAfterAHash) {
 
 TEST(Csv, NamesFileLineAndColumn) {
   const CsvTable table = CsvTable::parse(kTable, "t.csv");
-  EXPECT_EQ(catchError([&] { (void)table.number(0, 2); }), "t.csv:2: c = `x`: allowed a finite number");
-  EXPECT_EQ(catchError([&] { (void)table.integer(0, 1); }), "t.csv:2: b = `2.5`: allowed a whole number");
+  EXPECT_EQ(catchError([&] { (void)table.number(0, 2); }), "t.csv:2: c = `x`: expected a finite number");
+  EXPECT_EQ(catchError([&] { (void)table.integer(0, 1); }), "t.csv:2: b = `2.5`: expected a whole number");
   EXPECT_EQ(catchError([&] { (void)table.column("d"); }),
-            "t.csv: has no column `d`: allowed a header with it; found: a,b,c");
-  EXPECT_EQ(catchError([] { CsvTable::parse("a,b\n1\n", "t.csv"); }), "t.csv:2: 1 cells: allowed 2, as in the header");
-  EXPECT_EQ(catchError([] { CsvTable::parse("a,b\n1,\"2\n", "t.csv"); }), "t.csv:2: a quote that does not end");
+            "t.csv: has no column `d`: expected a header with it; found: a,b,c");
+  EXPECT_EQ(catchError([] { CsvTable::parse("a,b\n1\n", "t.csv"); }), "t.csv:2: 1 cells: expected 2, as in the header");
+  EXPECT_EQ(catchError([] { CsvTable::parse("a,b\n1,\"2\n", "t.csv"); }), "t.csv:2: unterminated quote");
   EXPECT_EQ(catchError([] { CsvTable::parse("a,b\n1,\"2\"3\n", "t.csv"); }),
-            "t.csv:2: text after a quote: allowed a separator");
-  EXPECT_EQ(catchError([] { CsvTable::parse("\n", "t.csv"); }), "t.csv: is empty: allowed a header line and rows");
+            "t.csv:2: text after a quote: expected a separator");
+  EXPECT_EQ(catchError([] { CsvTable::parse("\n", "t.csv"); }), "t.csv: is empty: expected a header line and rows");
 }
 
 TEST(Csv, WhatIsPrintedReadsBack) {

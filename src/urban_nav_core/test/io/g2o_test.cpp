@@ -82,19 +82,19 @@ TEST(G2o, NamesFileAndLine) {
   const auto error = [](const std::string& text, UnknownTags unknown = UnknownTags::Keep) {
     return catchError([&] { parseG2o(text, "g.g2o", unknown); });
   };
-  EXPECT_EQ(error("\nVERTEX_SE2 0 1 2\n"), "g.g2o:2: VERTEX_SE2 with 4 columns: allowed 5");
-  EXPECT_EQ(error("EDGE_SE2 0 1 1 1 1 1 1 1 1 1\n"), "g.g2o:1: EDGE_SE2 with 11 columns: allowed 12");
-  EXPECT_EQ(error("VERTEX_SE2 0.5 1 2 3\n"), "g.g2o:1: vertex `0.5`: allowed whole numbers");
-  EXPECT_EQ(error("VERTEX_SE2 0 1 2 nan\n"), "g.g2o:1: `nan`: allowed a finite number");
-  EXPECT_EQ(error("VERTEX_SE2 0 1 2 3\nVERTEX_SE2 0 1 2 3\n"), "g.g2o:2: vertex 0 stands twice");
-  EXPECT_EQ(error("VERTEX_SE3:QUAT 0 1 2 3 0 0 0 0\n"), "g.g2o:1: a quaternion of length 0: allowed length 1 (1 %)");
-  EXPECT_EQ(error(std::string(kG2oPlane) + kG2oSpace), "g.g2o:7: SE2 and SE3 in one file: allowed one of them");
-  EXPECT_EQ(error("FIX\n"), "g.g2o:1: FIX without a vertex: allowed FIX id");
-  EXPECT_EQ(error("EDGE_SE3_PRIOR 0 0 1 2 3 0 0 0 1 1\n"), "g.g2o:1: EDGE_SE3_PRIOR with 11 columns: allowed 31");
-  EXPECT_EQ(error("VERTEX_XY 0 1 2\nVERTEX_SE2 0 1 2 3\n"), "g.g2o:2: vertex 0 stands twice");
+  EXPECT_EQ(error("\nVERTEX_SE2 0 1 2\n"), "g.g2o:2: VERTEX_SE2 with 4 columns: expected 5");
+  EXPECT_EQ(error("EDGE_SE2 0 1 1 1 1 1 1 1 1 1\n"), "g.g2o:1: EDGE_SE2 with 11 columns: expected 12");
+  EXPECT_EQ(error("VERTEX_SE2 0.5 1 2 3\n"), "g.g2o:1: vertex `0.5`: expected whole numbers");
+  EXPECT_EQ(error("VERTEX_SE2 0 1 2 nan\n"), "g.g2o:1: `nan`: expected a finite number");
+  EXPECT_EQ(error("VERTEX_SE2 0 1 2 3\nVERTEX_SE2 0 1 2 3\n"), "g.g2o:2: duplicate vertex 0");
+  EXPECT_EQ(error("VERTEX_SE3:QUAT 0 1 2 3 0 0 0 0\n"), "g.g2o:1: a quaternion of length 0: expected length 1 (1 %)");
+  EXPECT_EQ(error(std::string(kG2oPlane) + kG2oSpace), "g.g2o:7: SE2 and SE3 in one file: expected one of them");
+  EXPECT_EQ(error("FIX\n"), "g.g2o:1: FIX without a vertex: expected FIX id");
+  EXPECT_EQ(error("EDGE_SE3_PRIOR 0 0 1 2 3 0 0 0 1 1\n"), "g.g2o:1: EDGE_SE3_PRIOR with 11 columns: expected 31");
+  EXPECT_EQ(error("VERTEX_XY 0 1 2\nVERTEX_SE2 0 1 2 3\n"), "g.g2o:2: duplicate vertex 0");
   EXPECT_EQ(
       error(kG2oPlane, UnknownTags::Refuse),
-      "g.g2o:6: unknown tag PARAMS_X: allowed VERTEX_SE2, VERTEX_SE3:QUAT, EDGE_SE2, EDGE_SE3:QUAT, FIX, VERTEX_XY, "
+      "g.g2o:6: unknown tag PARAMS_X: expected VERTEX_SE2, VERTEX_SE3:QUAT, EDGE_SE2, EDGE_SE3:QUAT, FIX, VERTEX_XY, "
       "EDGE_SE2_XY, VERTEX_TRACKXYZ, EDGE_SE3_TRACKXYZ, EDGE_PRIOR_SE2, EDGE_PRIOR_SE2_XY, EDGE_SE3_PRIOR, "
       "PARAMS_SE3OFFSET");
 }
@@ -143,7 +143,7 @@ TEST(G2o, UnknownTagsAreCounted) {
 
 TEST(G2o, InformationMovesToTheConventionOfStages) {
   const Pose Z(expSo3({0.3, -1.1, 0.8}), {2.0, -1.0, 0.5});
-  // g2o's error of a measurement that is moved by d in the box convention.
+  // Error of g2o for a measurement perturbed by d in the box convention.
   const auto error = [&Z](const Vector6d& d) -> Vector6d {
     const Pose E = Z.inverse() * boxPlus(Z, d);
     Vector6d e;

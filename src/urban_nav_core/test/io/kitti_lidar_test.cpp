@@ -40,7 +40,7 @@ TEST(KittiLidar, TheRectificationIsFoundAmongOtherRows) {
 TEST(KittiLidar, BadRowsAreNamedWithTheirLine) {
   EXPECT_NE(catchMessage("P0: 1\nTr: 1 2 3\n").find("calib.txt:2"), std::string::npos);
   EXPECT_NE(catchMessage("Tr: 1 0 0 0 0 1 0 0 0 0 nan 0\n").find("nan"), std::string::npos);
-  EXPECT_NE(catchMessage("Tr: 2 0 0 0 0 1 0 0 0 0 1 0\n").find("no rotation"), std::string::npos);
+  EXPECT_NE(catchMessage("Tr: 2 0 0 0 0 1 0 0 0 0 1 0\n").find("not a rotation"), std::string::npos);
   EXPECT_NE(catchMessage("R: 1 0 0 0 1 0 0 0 1\n").find("no line T"), std::string::npos);
 }
 

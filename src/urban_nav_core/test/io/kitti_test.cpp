@@ -45,13 +45,13 @@ TEST(Kitti, ReadsTheFormOfTheBenchmark) {
 
 TEST(Kitti, ChecksTheNumberOfColumnsAndTheRotation) {
   EXPECT_EQ(catchError([] { parseKitti("1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1\n", "p.txt"); }),
-            "p.txt:2: 11 columns: allowed 12: a 3x4 matrix, row by row");
+            "p.txt:2: 11 columns: expected 12: a 3x4 matrix, row by row");
   EXPECT_EQ(catchError([] { parseKitti("1 0 0 0 0 1 0 0 0 0 1 inf\n", "p.txt"); }),
-            "p.txt:1: `inf`: allowed a finite number");
+            "p.txt:1: `inf`: expected a finite number");
   EXPECT_EQ(catchError([] { parseKitti("1 0 0 0 0 1 0 0 0 0 -1 0\n", "p.txt"); }),
-            "p.txt:1: a matrix that is no rotation to 0.001");
+            "p.txt:1: a matrix that is not a rotation (tolerance 0.001)");
   EXPECT_EQ(catchError([] { parseKitti("2 0 0 0 0 1 0 0 0 0 1 0\n", "p.txt"); }),
-            "p.txt:1: a matrix that is no rotation to 0.001");
+            "p.txt:1: a matrix that is not a rotation (tolerance 0.001)");
   EXPECT_NE(catchError([] { parseKitti("1e200 0 0 0 0 1e200 0 0 0 0 1e200 0\n", "p.txt"); }), "");
 }
 
@@ -59,9 +59,9 @@ TEST(Kitti, TimesRise) {
   EXPECT_EQ(parseTimes("0.000000e+00\n1.038170e-01\n\n0.3\n", "times.txt"),
             (std::vector<StampNs>{0, 103817000, 300000000}));
   EXPECT_EQ(catchError([] { parseTimes("0.1\n0.1\n", "times.txt"); }),
-            "times.txt:2: 0.1 is not later than the time before");
+            "times.txt:2: 0.1 is not later than the previous time");
   EXPECT_EQ(catchError([] { parseTimes("0.1\n0.1 0.2\n", "times.txt"); }),
-            "times.txt:2: `0.1 0.2`: allowed seconds, one number a line");
+            "times.txt:2: `0.1 0.2`: expected seconds, one number a line");
 }
 
 TEST(Kitti, TimesHaveTheUnitThatTheirNumbersShow) {

@@ -21,7 +21,7 @@ std::string catchError(const Call& call) {
   return "";
 }
 
-/// A reader meets damaged files: it takes or refuses them, and does some of both.
+/// Checks that a reader accepts some damaged files and rejects others, without other errors.
 inline void expectSurvives(const testing::FuzzResult& result) {
   EXPECT_EQ(result.failure, "");
   EXPECT_GT(result.accepted, 0);

@@ -73,7 +73,7 @@ TEST(StereoCalibration, NamesWhatIsWrong) {
   };
   EXPECT_NE(refusal({ostSection("0")}).find("1 camera"), std::string::npos);
   EXPECT_NE(refusal({euroc("0")}).find("one camera"), std::string::npos);
-  EXPECT_NE(refusal({euroc("0"), ostSection("0")}).find("another kind"), std::string::npos);
+  EXPECT_NE(refusal({euroc("0"), ostSection("0")}).find("not of the same kind"), std::string::npos);
   EXPECT_NE(refusal({euroc("0.2"), euroc("0")}).find("left and right swapped"), std::string::npos);
   std::string omni = kCamchain;
   omni.replace(omni.find("pinhole"), 7, "omni");

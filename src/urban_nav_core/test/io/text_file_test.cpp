@@ -68,7 +68,7 @@ TEST(TextFile, ReadsAllBytes) {
 TEST(TextFile, NamesTheFileThatCannotBeRead) {
   EXPECT_EQ(catchError([] { readTextFile("/nowhere/poses.txt"); }),
             "/nowhere/poses.txt: cannot be read: No such file or directory");
-  EXPECT_EQ(catchError([] { readTextFile("/tmp"); }), "/tmp: is a folder: allowed a text file");
+  EXPECT_EQ(catchError([] { readTextFile("/tmp"); }), "/tmp: is a folder: expected a text file");
 }
 
 TEST(TextFile, FilesThatDoNotFitIntoMemoryAreRefused) {

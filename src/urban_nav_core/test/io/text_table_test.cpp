@@ -57,7 +57,7 @@ TEST(TextTable, QuotedCellsBetweenCommasMayHaveDecimalCommas) {
 }
 
 TEST(TextTable, NamesTheLineOfABrokenQuote) {
-  EXPECT_EQ(catchError([] { parse("1,2\n3,\"4\n"); }), "t:2: a quote that does not end");
+  EXPECT_EQ(catchError([] { parse("1,2\n3,\"4\n"); }), "t:2: unterminated quote");
 }
 
 TEST(TextTable, CellsAreNumbersOrNot) {

@@ -101,16 +101,17 @@ TEST(Toro, NamesFileAndLine) {
   const auto error = [](const std::string& text, UnknownTags unknown = UnknownTags::Keep) {
     return catchError([&] { parseToro(text, "g.graph", unknown); });
   };
-  EXPECT_EQ(error("\nVERTEX2 0 1 2\n"), "g.graph:2: VERTEX2 with 4 columns: allowed 5");
-  EXPECT_EQ(error("EDGE2 0 1 1 1 1 1 1 1 1 1\n"), "g.graph:1: EDGE2 with 11 columns: allowed 12");
-  EXPECT_EQ(error("VERTEX3 0 1 2 3\n"), "g.graph:1: VERTEX3 with 5 columns: allowed 8");
-  EXPECT_EQ(error("VERTEX2 1.5 1 2 3\n"), "g.graph:1: vertex `1.5`: allowed whole numbers");
-  EXPECT_EQ(error("VERTEX2 0 1 2 nan\n"), "g.graph:1: `nan`: allowed a finite number");
-  EXPECT_EQ(error("VERTEX2 0 1 2 3\nVERTEX2 0 1 2 3\n"), "g.graph:2: vertex 0 stands twice");
-  EXPECT_EQ(error(std::string(kToroPlane) + kToroSpace), "g.graph:5: plane and space in one file: allowed one of them");
-  EXPECT_EQ(error("FIX\n"), "g.graph:1: FIX without a vertex: allowed FIX id");
+  EXPECT_EQ(error("\nVERTEX2 0 1 2\n"), "g.graph:2: VERTEX2 with 4 columns: expected 5");
+  EXPECT_EQ(error("EDGE2 0 1 1 1 1 1 1 1 1 1\n"), "g.graph:1: EDGE2 with 11 columns: expected 12");
+  EXPECT_EQ(error("VERTEX3 0 1 2 3\n"), "g.graph:1: VERTEX3 with 5 columns: expected 8");
+  EXPECT_EQ(error("VERTEX2 1.5 1 2 3\n"), "g.graph:1: vertex `1.5`: expected whole numbers");
+  EXPECT_EQ(error("VERTEX2 0 1 2 nan\n"), "g.graph:1: `nan`: expected a finite number");
+  EXPECT_EQ(error("VERTEX2 0 1 2 3\nVERTEX2 0 1 2 3\n"), "g.graph:2: duplicate vertex 0");
+  EXPECT_EQ(error(std::string(kToroPlane) + kToroSpace),
+            "g.graph:5: plane and space in one file: expected one of them");
+  EXPECT_EQ(error("FIX\n"), "g.graph:1: FIX without a vertex: expected FIX id");
   EXPECT_EQ(error(kToroPlane, UnknownTags::Refuse),
-            "g.graph:4: unknown tag EQUIV: allowed VERTEX2, VERTEX, EDGE2, EDGE, VERTEX3, EDGE3, FIX");
+            "g.graph:4: unknown tag EQUIV: expected VERTEX2, VERTEX, EDGE2, EDGE, VERTEX3, EDGE3, FIX");
   EXPECT_NE(error("EDGE3 7 8 1 2 3 0 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1e308 0 0 1 0 1\n"), "");
 }
 

@@ -61,18 +61,18 @@ TEST(Tum, PrintsItsLines) {
 
 TEST(Tum, NamesFileAndLine) {
   EXPECT_EQ(catchError([] { parseTum("1 1 2 3 0 0 0 1\n2 1 2 3 0 0 0\n", "t.tum"); }),
-            "t.tum:2: 7 columns: allowed 8: stamp x y z qx qy qz qw");
+            "t.tum:2: 7 columns: expected 8: stamp x y z qx qy qz qw");
   EXPECT_EQ(catchError([] { parseTum("1 1 nan 3 0 0 0 1\n", "t.tum"); }),
-            "t.tum:1: a number that is missing or not finite, or a quaternion of zeros: allowed finite numbers");
-  EXPECT_EQ(catchError([] { parseTum("x 1 1 3 0 0 0 1\n", "t.tum"); }), "t.tum:1: stamp x: allowed seconds");
+            "t.tum:1: a number that is missing or not finite, or a quaternion of zeros: expected finite numbers");
+  EXPECT_EQ(catchError([] { parseTum("x 1 1 3 0 0 0 1\n", "t.tum"); }), "t.tum:1: stamp x: expected seconds");
   EXPECT_EQ(catchError([] { parseTum("1 1 1 3 0 0 0 0\n", "t.tum"); }),
-            "t.tum:1: a number that is missing or not finite, or a quaternion of zeros: allowed finite numbers");
+            "t.tum:1: a number that is missing or not finite, or a quaternion of zeros: expected finite numbers");
   EXPECT_EQ(catchError([] { parseTum("1 1 1 3 0 0 0 2\n", "t.tum"); }),
-            "t.tum:1: a quaternion of length 2: allowed length 1 (1 %)");
+            "t.tum:1: a quaternion of length 2: expected length 1 (1 %)");
   EXPECT_EQ(catchError([] { parseTum("time,x,y,z\n1,2,3,4\n", "t.tum"); }),
-            "t.tum:1: no column qx in the header time, x, y, z: allowed stamp x y z qx qy qz qw");
+            "t.tum:1: no column qx in the header time, x, y, z: expected stamp x y z qx qy qz qw");
   EXPECT_EQ(catchError([] { parseTum("1 1 1 3 0 0 0 1\n1 1 1 3 0 0 0 1\n", "t.tum"); }),
-            "t.tum:2: stamp 1.000000000 is not later than the one before");
+            "t.tum:2: stamp 1.000000000 is not later than the previous one");
   EXPECT_NE(catchError([] { readTum("/nowhere.tum"); }), "");
 }
 

@@ -28,14 +28,14 @@ TEST(Yaml, ReadsAfterOpenCvsHeader) {
 
 TEST(Yaml, NamesFileLineAndKey) {
   EXPECT_EQ(catchError([] { parseYaml("a: [1\nb: 2\n", "f.yaml"); }).rfind("f.yaml:", 0), 0U);
-  EXPECT_EQ(catchError([] { parseYaml("? [1]\n: 2\n", "f.yaml"); }).rfind("f.yaml:1: a key that is no word", 0), 0U);
+  EXPECT_EQ(catchError([] { parseYaml("? [1]\n: 2\n", "f.yaml"); }).rfind("f.yaml:1: a key that is not a word", 0), 0U);
   const YamlNode root = parseYaml("a: x\nb: [1, nan]\n", "f.yaml");
   EXPECT_EQ(catchError([&] { requireNumber(root, "z", "f.yaml"); }), "f.yaml:1: no key `z`");
-  EXPECT_EQ(catchError([&] { requireNumber(root, "a", "f.yaml"); }), "f.yaml:1: a = x: allowed a number");
+  EXPECT_EQ(catchError([&] { requireNumber(root, "a", "f.yaml"); }), "f.yaml:1: a = x: expected a number");
   EXPECT_EQ(catchError([&] { requireNumbers(root, "b", 3, "f.yaml"); }),
-            "f.yaml:2: b has 2 elements: allowed 3 numbers in a list");
+            "f.yaml:2: b has 2 elements: expected 3 numbers in a list");
   EXPECT_EQ(catchError([&] { requireNumbers(root, "b", 2, "f.yaml"); }),
-            "f.yaml:2: b holds `nan`: allowed 2 numbers in a list");
+            "f.yaml:2: b holds `nan`: expected 2 numbers in a list");
 }
 
 TEST(Yaml, BombsAreRefused) {

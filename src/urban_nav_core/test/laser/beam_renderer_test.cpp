@@ -81,7 +81,7 @@ TEST(BeamRenderer, LeavesOutWhatNoPoseCoversAndSaysHowMuch) {
 }
 
 TEST(BeamRenderer, AWallSeenInATurnOnTheSpotIsFlat) {
-  // Without each beam's own time it would be bent by 13 ms of the turn.
+  // Without the time of each beam it would be bent by 13 ms of the turn.
   Trajectory trajectory;
   for (int i = 0; i < 20; ++i) trajectory.append(i * kFrame, Pose(expSo3({0.0, 0.0, 0.1 * i}), {0.0, 0.0, 0.0}));
   const Pose T_base_laser(Quaterniond::Identity(), {0.0, 0.0, 0.5});

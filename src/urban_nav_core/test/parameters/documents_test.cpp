@@ -41,6 +41,16 @@ TEST_F(Documents, GetEachTableWhereItBelongs) {
   EXPECT_NE(readme.find("between\n<!-- parameters:  -->\n| parameter |"), std::string::npos) << readme;
 }
 
+TEST_F(Documents, AreInAFileOfTheirOwnWhereThePackageHasOne) {
+  writeAtomically(package_ + "/README.md", "no markers\n");
+  EXPECT_EQ(findParameterDocument(package_), "README.md");
+  writeAtomically(package_ + "/PARAMETERS.md", kEmptyReadme);
+  EXPECT_EQ(findParameterDocument(package_), "PARAMETERS.md");
+  writeDocuments(package_, {{"stage", rows_}, {"", {rows_[0]}}});
+  EXPECT_NE(readTextFile(package_ + "/PARAMETERS.md").find("| `stage.window` |"), std::string::npos);
+  EXPECT_EQ(readTextFile(package_ + "/README.md"), "no markers\n");
+}
+
 TEST_F(Documents, AreLeftAsTheyAreWhereOneIsMissing) {
   writeAtomically(package_ + "/README.md", "no marks\n");
   writeAtomically(package_ + "/config/stage.yaml", "old");

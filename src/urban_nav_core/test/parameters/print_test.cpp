@@ -69,7 +69,7 @@ TEST(Print, MarkdownGoesBetweenItsMarkers) {
   EXPECT_EQ(insertMarkdown(text, "README.md", "stage", rows()), text);
   EXPECT_EQ(
       catchError([] { insertMarkdown("# Title\n", "README.md", "stage", rows()); }),
-      "README.md: no markers for the table of parameters: allowed `<!-- parameters: stage -->` ... `<!-- end -->`");
+      "README.md: no markers for the table of parameters: expected `<!-- parameters: stage -->` ... `<!-- end -->`");
 }
 
 TEST(Print, HelpShowsValuesOriginsAndWhatIsForUsers) {

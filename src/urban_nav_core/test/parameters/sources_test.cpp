@@ -64,15 +64,15 @@ TEST(Sources, ErrorsNameFileLineKeyValueAndWhatIsAllowed) {
   EXPECT_EQ(catchError([] { loadText("stage:\n  forget: keep\n"); }),
             "config.yaml:2: stage.forget = keep: allowed schur, delete");
   EXPECT_EQ(catchError([] { loadText("stage:\n  windw: 3\n"); }),
-            "config.yaml:2: stage.windw is no parameter: allowed the parameters that --help-all lists; nearest: "
+            "config.yaml:2: stage.windw is not a parameter: expected the parameters that --help-all lists; nearest: "
             "stage.window");
   EXPECT_EQ(catchError([] { loadText("stage:\n  window: [1]\n"); }),
-            "config.yaml:2: stage.window is not a single value: allowed one value after the colon");
+            "config.yaml:2: stage.window is not a single value: expected one value after the colon");
   EXPECT_EQ(catchError([] { loadText("stage:\n  window: 1\n  window: 2\n"); }),
-            "config.yaml:3: stage.window stands twice");
+            "config.yaml:3: duplicate key stage.window");
   EXPECT_EQ(catchError([] { loadText("stage:\n  window: 1\nstage:\n  noise: 2\n"); }),
-            "config.yaml:3: stage stands twice");
-  EXPECT_EQ(catchError([] { loadText("- 1\n"); }), "config.yaml:1: no map of stages: allowed lines such as `swf_vo:`");
+            "config.yaml:3: duplicate key stage");
+  EXPECT_EQ(catchError([] { loadText("- 1\n"); }), "config.yaml:1: no map of stages: expected lines such as `swf_vo:`");
   EXPECT_NE(catchError([] { loadText("stage: [\n"); }).find("config.yaml:"), std::string::npos);
   EXPECT_EQ(catchError([] { load(exampleTable(), {parseSetting("stage.window=x")}); }),
             "--set stage.window=x: stage.window = x: allowed 1...100000 (frames)");
@@ -101,11 +101,11 @@ TEST(Sources, UnknownStagesAreRefused) {
   EXPECT_EQ(catchError([&] {
               refuseUnknownStages(assignments, {"stage", "others", ""});
             }),
-            "config.yaml:8: other is no stage: allowed stage, others, none; nearest: others");
+            "config.yaml:8: other is not a stage: expected stage, others, none; nearest: others");
   EXPECT_EQ(catchError([&] {
               refuseUnknownStages(assignments, {"stage", "other"});
             }),
-            "config.yaml:9: memory_mb has no stage in front: allowed stage, other; nearest: stage");
+            "config.yaml:9: memory_mb has no stage prefix: expected stage, other; nearest: stage");
   EXPECT_EQ(catchError([&] { refuseUnknownStages(assignments, {"stage", "other", ""}); }), "");
 }
 
@@ -115,7 +115,7 @@ TEST(Sources, SettingsOfTheCommandLine) {
   EXPECT_EQ(a.name, "memory_mb");
   EXPECT_EQ(std::get<std::string>(parseSetting("stage.name=a=b").value), "a=b");
   EXPECT_EQ(catchError([] { parseSetting("stage.window"); }),
-            "--set stage.window: no key and value: allowed stage.key=value");
+            "--set stage.window: no key and value: expected stage.key=value");
   EXPECT_NE(catchError([] { parseSetting("=3"); }), "");
 }
 

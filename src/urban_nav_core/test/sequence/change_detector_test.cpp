@@ -15,7 +15,7 @@ namespace {
 
 constexpr StampNs kSecond = 1'000'000'000;
 
-/// Measurements of a constant, with standard deviations that differ.
+/// Measurements of a constant, with different standard deviations.
 class Drive {
  public:
   explicit Drive(unsigned seed) : random_(seed) {}
@@ -34,7 +34,7 @@ class Drive {
   std::int64_t k_ = 0;
 };
 
-/// Share of 2000 sequences of a constant of which an alarm is raised, by the detector's own limit.
+/// Returns the share of 2000 sequences of a constant with an alarm, at the detector's own threshold.
 int countAlarms(double false_alarm, std::int64_t length) {
   int alarms = 0;
   for (unsigned seed = 1; seed <= 2000; ++seed) {
@@ -48,7 +48,7 @@ int countAlarms(double false_alarm, std::int64_t length) {
 }
 
 TEST(ChangeDetector, RaisesFalseAlarmsAsOftenAsStated) {
-  // Siegmund's approximation is good to some percent; the recursive residuals and differing sigmas add nothing to it.
+  // Siegmund's approximation is accurate to a few percent, also with recursive residuals and different sigmas.
   for (const double stated : {0.02, 0.1, 0.3}) {
     const double expected = 2000.0 * stated, band = 4.0 * std::sqrt(expected * (1.0 - stated)) + 0.15 * expected;
     EXPECT_NEAR(countAlarms(stated, 60), expected, band) << stated;
@@ -57,8 +57,8 @@ TEST(ChangeDetector, RaisesFalseAlarmsAsOftenAsStated) {
 }
 
 TEST(ChangeDetector, FindsASmallChangeWithinTheStatedDelay) {
-  // A change of 2 sigma, of which 1/2 is taken off, needs (threshold + 1.166) / 1.5 measurements on
-  // average, if the constant was known exactly before (Wald's identity).
+  // A change of 2 sigma minus the reference of 1/2 takes (threshold + 1.166) / 1.5 measurements on average, if the
+  // constant was known exactly before (Wald's identity).
   double delay = 0.0, squares = 0.0;
   const int runs = 300;
   for (unsigned seed = 1; seed <= runs; ++seed) {
@@ -83,7 +83,7 @@ TEST(ChangeDetector, FindsASmallChangeWithinTheStatedDelay) {
   }
   const double expected = (ChangeDetector(1e-6, 1000).threshold() + 1.166) / 1.5;
   EXPECT_NEAR(delay / runs, expected, 0.08 * expected);
-  EXPECT_LT(std::sqrt(squares / runs), 4.0);  // measurements between the change and where it is found
+  EXPECT_LT(std::sqrt(squares / runs), 4.0);  // measurements between the change and its estimate
 }
 
 TEST(ChangeDetector, EstimatesTheConstantBeforeAndAfter) {

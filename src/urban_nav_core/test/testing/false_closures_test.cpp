@@ -110,7 +110,7 @@ TEST(AliasedClosures, AgreeWithEachOtherAndWithTheOdometryBetweenThem) {
       EXPECT_LT(edge.a, edge.b);
       EXPECT_GT(distanceBetween(graph.truth[edge.a], graph.truth[edge.b]), 20.0);
       if (i == first) continue;
-      // Round the two edges and the true ways between their ends, whichever end lies at the first place.
+      // Around the two edges and the true paths between their ends, for either assignment of the ends.
       const bool turned = distanceBetween(graph.truth[edge.a], graph.truth[one.a]) > 10.0;
       const Pose T = turned ? edge.T_a_b.inverse() : edge.T_a_b;
       const std::size_t a = turned ? edge.b : edge.a, b = turned ? edge.a : edge.b;

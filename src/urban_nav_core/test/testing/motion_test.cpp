@@ -32,8 +32,8 @@ TEST(Motion, EveryNamedMotionIsSmooth) {
         const Pose before = motion(t - h), here = motion(t), after = motion(t + h);
         ASSERT_TRUE(here.isFinite());
         const Vector6d a = boxMinus(here, before), b = boxMinus(after, here);
-        // A jump shows as a change of speed from one hundredth of a second to the next: 10 m/s^2 and rad/s^2 are the
-        // limit.
+        // A discontinuity appears as a change of speed between consecutive hundredths of a second: 10 m/s^2 and rad/s^2
+        // are the limit.
         ASSERT_LT((b - a).norm(), 10.0 * h * h) << scene << " " << name << " at " << t;
       }
     }

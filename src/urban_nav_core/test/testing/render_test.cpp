@@ -166,7 +166,7 @@ std::optional<Disparities> disparities(const Scene& scene, const Pose& eye, int 
   return result;
 }
 
-/// What must be added to the true disparities of a patch so that the right image fits best; NaN without texture.
+/// Returns the correction of the true disparities of a patch for which the right image fits best; NaN without texture.
 double excess(const cv::Mat& left, const cv::Mat& right, int u, int v, const Disparities& truth) {
   double offset = 0.2;
   for (int iteration = 0; iteration < 8; ++iteration) {

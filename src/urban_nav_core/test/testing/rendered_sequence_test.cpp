@@ -32,7 +32,7 @@ TEST(RenderedSequence, AFrameIsTheSameWheneverItIsAskedFor) {
 }
 
 TEST(RenderedSequence, NoiseHasItsDeviationAndIsNewForEachFrameAndCamera) {
-  // A flat grey wall all around, so that frames differ by noise alone.
+  // A flat grey wall all around, so that frames differ only by noise.
   Scene scene;
   scene.background = 120.0;
   RenderedSequence sequence(scene, standing(Pose()), options(3.0));

@@ -18,7 +18,7 @@ std::vector<Pose> randomPoses(int count) {
   return poses;
 }
 
-// The estimate that `truth` is, seen through the inverse of a similarity.
+// Returns the estimate that a similarity maps to `truth`.
 std::vector<Pose> seenThrough(const Similarity& s, const std::vector<Pose>& truth) {
   std::vector<Pose> estimate;
   for (const Pose& pose : truth) {

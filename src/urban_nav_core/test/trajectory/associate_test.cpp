@@ -14,7 +14,7 @@ namespace {
 
 constexpr StampNs kMs = 1000000;
 
-// A way with bends and changes of speed, sampled every `step`.
+// Path with bends and changes of speed, sampled every `step`.
 Pose wayAt(double s) {
   return Pose(expSo3({0, 0, std::sin(0.3 * s) + 0.4 * std::sin(1.1 * s)}),
               {2 * s + std::sin(0.9 * s), std::cos(0.5 * s), 0});

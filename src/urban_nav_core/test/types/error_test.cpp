@@ -10,7 +10,7 @@ namespace urban_nav_core {
 namespace {
 
 TEST(UserError, ReadsAsOneSentence) {
-  const UserError error(atLine("config.yaml", 12), "swf_vo.window = 0", "1...100000 (frames)");
+  const UserError error(atLine("config.yaml", 12), "swf_vo.window = 0", "allowed 1...100000 (frames)");
   EXPECT_STREQ(error.what(), "config.yaml:12: swf_vo.window = 0: allowed 1...100000 (frames)");
   EXPECT_EQ(error.parts().where, "config.yaml:12");
 }
@@ -18,7 +18,7 @@ TEST(UserError, ReadsAsOneSentence) {
 TEST(UserError, LeavesEmptyPartsOut) {
   EXPECT_STREQ(UserError("a.bag", "is no bag", "").what(), "a.bag: is no bag");
   EXPECT_STREQ(UserError("", "no input", "").what(), "no input");
-  EXPECT_STREQ(UserError("", "no input", "bags or folders").what(), "no input: allowed bags or folders");
+  EXPECT_STREQ(UserError("", "no input", "bags or folders").what(), "no input: expected bags or folders");
 }
 
 TEST(Error, KindsAreSiblings) {

@@ -38,8 +38,8 @@ class FaultCounter {
     for (const auto& [key, group] : groups_)
       findings.push_back(
           {FindingKind::Pairs,
-           group.example + (group.count > 1 ? " (and " + std::to_string(group.count - 1) + " alike)" : ""),
-           "these pairs are counted, not used; record or copy the images again if they are many"});
+           group.example + (group.count > 1 ? " (and " + std::to_string(group.count - 1) + " similar)" : ""),
+           "these pairs are not used; record or copy the images again if there are many"});
     return findings;
   }
 
@@ -54,7 +54,7 @@ class FaultCounter {
 std::vector<std::string> describe(const SourceInfo& info) {
   std::vector<std::string> contents = info.notes;
   if (!info.has_images) {
-    contents.push_back("no images: the session is that of its 3D LiDARs");
+    contents.push_back("no images: the session consists of the sweeps of its 3D LiDARs");
     return contents;
   }
   const urban_nav_core::Pinhole& left = info.camera.left;
@@ -207,7 +207,7 @@ Finding baselineFinding(Finding fault, const SourceOptions& options, std::vector
                    "is -fx times the baseline in metres";
     return fault;
   }
-  fault.text += "; so are the images: the topics of the two cameras are exchanged";
+  fault.text += ", and so are the images: the topics of the two cameras are exchanged";
   for (std::string& option : exchanged->options) {  // calibrations with their images
     if (option.rfind("left_info:=", 0) == 0) option.replace(0, 4, "right");
     else if (option.rfind("right_info:=", 0) == 0) option.replace(0, 5, "left");

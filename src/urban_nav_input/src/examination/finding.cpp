@@ -16,9 +16,9 @@ struct KnownSentence {
 };
 
 constexpr const char* kWholeIsUsed =
-    "nothing has to be done to use what is whole; end the recorder of later recordings before the power is switched "
+    "no action needed, the intact part is used; for later recordings stop the recorder before the power is switched "
     "off";
-constexpr const char* kCopyAgain = "copy the recording again if the original is whole; what can be read is used";
+constexpr const char* kCopyAgain = "copy the recording again if the original is intact; the readable part is used";
 
 constexpr KnownSentence kKnownSentences[] = {
     {"no header has a stamp", FindingKind::Stamps,
@@ -27,17 +27,17 @@ constexpr KnownSentence kKnownSentences[] = {
     {"have the stamp of another", FindingKind::Stamps,
      "record the topic once; a driver that repeats images or stamps needs a restart or a repair"},
     {"came too late by their stamps", FindingKind::Stamps, "check the clock of the computer that stamps this topic"},
-    {"no times.txt", FindingKind::Stamps, "--rate HZ states the rate of the images"},
+    {"no times.txt", FindingKind::Stamps, "--rate HZ sets the rate of the images"},
     {"no image of this camera", FindingKind::Pairs, "check the cable and the driver of this camera of the panorama"},
     {"no static tf", FindingKind::Tf,
-     "--transform base_link,FRAME:X,Y,Z,QX,QY,QZ,QW states it for this recording (m, quaternion); for later ones "
+     "--transform base_link,FRAME:X,Y,Z,QX,QY,QZ,QW sets it for this recording (m, quaternion); for later ones "
      "publish it: rosrun tf2_ros static_transform_publisher X Y Z QX QY QZ QW base_link FRAME"},
     {"contradict each other", FindingKind::Tf,
-     "--transform PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW with the right one of the two; for later recordings stop the other "
+     "--transform PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW with the correct one of the two; for later recordings stop the other "
      "publisher"},
     {"no unit quaternion", FindingKind::Tf,
-     "nothing has to be done if the rotation is right; for later recordings publish quaternions of length 1"},
-    {"is no rigid motion", FindingKind::Tf, "--transform PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW states it"},
+     "no action needed if the rotation is right; for later recordings publish quaternions of length 1"},
+    {"is no rigid motion", FindingKind::Tf, "--transform PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW sets it"},
     {"is not used", FindingKind::Tf, "publish its transform from base_link on /tf_static"},
     {"images are rectified already, although", FindingKind::Calibration,
      "publish images without distortion with a camera_info whose D is zero, or record the raw images"},
@@ -45,10 +45,11 @@ constexpr KnownSentence kKnownSentences[] = {
      "name raw images image_raw, and rectified ones image_rect"},
     {"holds images of the same topics at the same time",
      FindingKind::Stamps,
-     "nothing has to be done if these are recordings of different drives or robots (--set input.sessions=apart states "
-     "it); --set input.sessions=together if they are one recording; for later recordings keep the clock running",
+     "no action needed if these are recordings of different drives or robots (--set input.sessions=apart "
+     "confirms it); --set input.sessions=together if they are one recording; for later recordings keep the clock "
+     "running",
      {{"--set", "input.sessions=apart"}}},
-    {"left aside", FindingKind::Calibration, "repair the file that the message names"},
+    {"is ignored", FindingKind::Calibration, "repair the file named in the message"},
     {"is cut off", FindingKind::Topics, kWholeIsUsed},
     {"was not closed by its recorder", FindingKind::Topics, kWholeIsUsed},
     {"chunk at byte", FindingKind::Topics, kCopyAgain},
@@ -56,7 +57,7 @@ constexpr KnownSentence kKnownSentences[] = {
     {"damaged and", FindingKind::Topics, kCopyAgain},
     {"be decompressed and are left out", FindingKind::Topics, kCopyAgain},
     {"index is wrong", FindingKind::Topics, kCopyAgain},
-    {"names files that are not there", FindingKind::Topics, "copy the whole folder from the robot"},
+    {"names missing files", FindingKind::Topics, "copy the whole folder from the robot"},
     {"-wal that cannot be read", FindingKind::Topics, "copy the file again after its recorder has ended"},
 };
 

@@ -81,13 +81,13 @@ class TopicCounter {
     if (!has_header_ || stamps.messages == 0) return {};
     if (!hasStamps())
       return stamps.name + ": stamps are " + (stamps.last == 0 ? "not set" : "all equal") +
-             ", so rate and times are those of receipt";
+             ", so rate and times are by receipt";
     const double begin = urban_nav_core::secondsBetween(stamps.first, receipts.first),
                  length = urban_nav_core::secondsBetween(receipts.first, receipts.last) -
                           urban_nav_core::secondsBetween(stamps.first, stamps.last);
     if (std::abs(begin) < kApart && std::abs(length) < kApart) return {};
     return stamps.name + ": received from " + urban_nav_core::printStamp(receipts.first) + " to " +
-           urban_nav_core::printStamp(receipts.last) + " s, which differs from its stamps; the stamps count";
+           urban_nav_core::printStamp(receipts.last) + " s, which differs from its stamps; the stamps are used";
   }
 
  private:

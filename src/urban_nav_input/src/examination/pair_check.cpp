@@ -186,7 +186,7 @@ void PairCheck::rowsFindings(const SourceInfo& info, std::vector<Finding>& findi
                 ? "a rotation of " + printed(tilt) + " deg about the optical axis"
             : std::abs(plane[2]) > std::abs(plane[0])
                 ? "focal lengths that differ by " + percent(std::abs(plane[2]) / half_height_)
-                : "a pitch between the cameras, or images cut differently"),
+                : "a pitch between the cameras, or different image crops"),
        "calibrate the stereo camera again (rosrun camera_calibration cameracalibrator.py), or give its calibration by "
        "--calibration LEFT.yaml,RIGHT.yaml"});
 }
@@ -202,20 +202,20 @@ void PairCheck::greyFindings(std::vector<Finding>& findings) const {
     if (mean < 8.0)
       findings.push_back(
           {FindingKind::Depth, std::string(side) + " images are nearly black: a mean of " + printed(mean) + " of 255",
-           "if they are brighter in a viewer, their encoding states more bits than they have: record mono16 "
+           "if they are brighter in a viewer, their encoding has more bits than the pixels: record mono16 "
            "with the bits at the top, or mono8; otherwise expose longer"});
     if (bright > 0.3)
-      findings.push_back(
-          {FindingKind::Depth, percent(bright) + " of the pixels of " + side + " images are saturated",
-           "expose shorter, or let the camera's automatic exposure look at the lower part of the image"});
+      findings.push_back({FindingKind::Depth, percent(bright) + " of the pixels of " + side + " images are saturated",
+                          "expose shorter, or restrict the automatic exposure to the lower part of the image"});
   }
   const double left = median(left_, &Grey::mean), right = median(right_, &Grey::mean);
   const double ratio = std::max(left, right) / std::max(1.0, std::min(left, right));
   if (ratio > 2.0)
     findings.push_back({FindingKind::Depth,
-                        "one camera's images are " + printed(ratio) + " times as bright as the other's (left " +
-                            printed(left) + ", right " + printed(right) + ")",
-                        "give both cameras one exposure and gain, and one depth of pixels"});
+                        "the images of one camera are " + printed(ratio) +
+                            " times as bright as those of the other one (left " + printed(left) + ", right " +
+                            printed(right) + ")",
+                        "use the same exposure, gain and pixel depth for both cameras"});
 }
 
 }  // namespace urban_nav_input

@@ -72,24 +72,24 @@ std::vector<Finding> RepeatedImages::findings() const {
     if (count.longest < kShortRun && !has_many_runs(count)) continue;
     const std::string name = side == 0 ? "left" : "right";
     findings.push_back({FindingKind::Pairs,
-                        share(count) + " " + name + " images repeat the one before pixel by pixel, while the " +
+                        share(count) + " " + name + " images repeat the previous one pixel by pixel, while the " +
                             (side == 0 ? "right" : "left") + " ones change, the first at " +
                             urban_nav_core::printStamp(count.first) + ": the camera or its driver is frozen",
                         "restart the driver of the " + name +
-                            " camera; these pairs do not show one moment, and nothing replaces their images"});
+                            " camera; the images of these pairs are of different times and cannot be restored"});
   }
   const Count& both = counts_[2];
   if (has_many_runs(both))
     findings.push_back({FindingKind::Pairs,
-                        share(both) + " stereo pairs repeat the one before pixel by pixel: each is published more "
-                                      "than once under stamps of its own",
+                        share(both) + " stereo pairs repeat the previous one pixel by pixel: each is published more "
+                                      "than once with different stamps",
                         "publish each pair once, at the rate of the cameras"});
   else if (both.longest >= kLongRun)
     findings.push_back({FindingKind::Pairs,
-                        share(both) + " stereo pairs repeat the one before pixel by pixel, the first at " +
+                        share(both) + " stereo pairs repeat the previous one pixel by pixel, the first at " +
                             urban_nav_core::printStamp(both.first) +
-                            ": both cameras or their driver are frozen, or a simulator without noise stood still",
-                        "restart the driver of the cameras; a robot at rest in a simulator is no fault"});
+                            ": both cameras or their driver are frozen, or a noise-free simulator was at rest",
+                        "restart the driver of the cameras; no action needed for a simulated robot at rest"});
   return findings;
 }
 

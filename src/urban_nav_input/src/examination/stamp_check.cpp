@@ -32,7 +32,7 @@ Finding gapFinding(const std::vector<Gap>& gaps, double interval) {
       FindingKind::Rates,
       std::to_string(gaps.size()) + (gaps.size() == 1 ? " gap" : " gaps") + " between stereo pairs, the longest " +
           urban_nav_core::formatNumber(longest.seconds, 3) + " s after " + urban_nav_core::printStamp(longest.after) +
-          " (usual interval " + urban_nav_core::formatNumber(interval, 3) + " s)",
+          " (median interval " + urban_nav_core::formatNumber(interval, 3) + " s)",
       "record to a faster disk or with a larger buffer (rosbag record -b 4096); after a gap the motion is predicted, "
       "and its covariance grows"};
 }
@@ -52,8 +52,7 @@ std::vector<Finding> checkStamps(const std::vector<StampNs>& stamps) {
   }
   if (backward > 0)
     findings.push_back({FindingKind::Stamps,
-                        std::to_string(backward) +
-                            " stereo pairs are stamped no later than the pair before, the first at " +
+                        std::to_string(backward) + " stereo pairs have stamps that do not increase, the first at " +
                             urban_nav_core::printStamp(first_backward),
                         "sort the input by stamp; a clock that steps needs to be slewed (chrony) while recording"});
   if (intervals.empty()) return findings;
@@ -72,12 +71,12 @@ std::vector<Finding> checkStamps(const std::vector<StampNs>& stamps) {
   if (1.0 / median < kLowestRate)
     findings.push_back({FindingKind::Rates,
                         "stereo pairs come at " + urban_nav_core::formatNumber(1.0 / median, 3) + " Hz",
-                        "record at 10 Hz or more: features have to be found again from image to image"});
+                        "record at 10 Hz or more: features are tracked from image to image"});
   if (intervals.size() >= kFewIntervals &&
       static_cast<double>(uneven) > kUnevenShare * static_cast<double>(intervals.size()))
     findings.push_back({FindingKind::Stamps,
                         std::to_string(uneven) + " of " + std::to_string(intervals.size()) +
-                            " intervals between stereo pairs differ from the usual " +
+                            " intervals between stereo pairs differ from the median of " +
                             urban_nav_core::formatNumber(median, 3) +
                             " s by more than 40 %: the stamps seem to be times of arrival",
                         "stamp images when they are exposed (trigger or driver), not when they arrive"});
@@ -94,11 +93,11 @@ std::vector<Finding> checkStreams(const std::vector<StreamInfo>& streams) {
     if (is_imu && stream.rate_hz < kSlowestImu)
       findings.push_back({FindingKind::Rates,
                           stream.name + " comes at " + urban_nav_core::formatNumber(stream.rate_hz, 3) + " Hz",
-                          "set the inertial unit to 100 Hz or more"});
+                          "set the IMU to 100 Hz or more"});
     if (stream.longest_gap_s > kLongestPairGap && stream.longest_gap_s * stream.rate_hz > 10.0)
       findings.push_back({FindingKind::Rates,
                           stream.name + " has a gap of " + urban_nav_core::formatNumber(stream.longest_gap_s, 3) + " s",
-                          "check the cable and the driver of this device, and the disk that records"});
+                          "check the cable and the driver of this device, and the recording disk"});
   }
   return findings;
 }

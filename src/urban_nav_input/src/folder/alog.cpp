@@ -107,7 +107,7 @@ std::optional<AlogRow> AlogReader::next() {
       row->value += "\n";
       row->value += trimmed(line_);
     } else if (!trimmed(line_).empty()) {
-      throw UserError(atLine(path_, number_), "no row of a MOOS log",
+      throw UserError(atLine(path_, number_), "not a row of a MOOS log",
                       "`time VARIABLE source value`, or comments that begin with %%");
     }
   }
@@ -173,7 +173,7 @@ std::vector<double> AlogFields::array(std::string_view key, std::size_t count) c
   const std::size_t bracket = value.find(']'), open = value.find('{');
   if (value.empty() || value[0] != '[' || bracket == std::string_view::npos || open != bracket + 1 ||
       value.back() != '}') {
-    refuse("no whole array");
+    refuse("incomplete array");
   }
   const std::string_view size = value.substr(1, bracket - 1);
   const std::size_t cross = size.find('x');

@@ -42,7 +42,7 @@ class EurocFolder : public Source {
     readMotion(options);
     readForces(options.sensors.accelerometer);
     info_.notes.push_back("raw images, rectified on the way; base_link is at the left camera");
-    if (!options.calibration.empty()) info_.notes.push_back("--calibration is left aside: sensor.yaml counts");
+    if (!options.calibration.empty()) info_.notes.push_back("--calibration is ignored: sensor.yaml is used");
     if (std::string sentence = describeUnusedFiles(mav0_, {"cam0", "cam1", "imu0", "state_groundtruth_estimate0"});
         !sentence.empty())
       info_.notes.push_back(std::move(sentence));
@@ -109,7 +109,7 @@ class EurocFolder : public Source {
       if (!accelerometer.verdict().sound()) forces_.clear();
     } catch (const urban_nav_core::Error& error) {
       forces_.clear();
-      info_.notes.push_back(std::string("the accelerometer is left aside: ") + error.what());
+      info_.notes.push_back(std::string("the accelerometer is ignored: ") + error.what());
     }
   }
 

@@ -41,7 +41,7 @@ std::vector<std::pair<StampNs, std::string>> readImages(const std::string& camer
     const fs::path folder = name.parent_path();
     if (!folder.empty() && folder != "data" && folder != "./data" && folder != ".")
       throw UserError(row.where, "file name \"" + name.string() + "\"",
-                      "a name without folders, or data/NAME: images lie in " + (fs::path(camera) / "data").string());
+                      "a name without folders, or data/NAME: images are in " + (fs::path(camera) / "data").string());
     images.emplace_back(row.stamp, (fs::path(camera) / "data" / name.filename()).string());
   }
   return images;

@@ -40,7 +40,7 @@ bool isComplete(const std::vector<char>& bytes) {
 
 GreyImage readPixels(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) return {{}, path + ": does not open"};
+  if (!file || std::filesystem::is_directory(path)) return {{}, path + ": cannot be opened"};
   std::error_code no_size;
   if (std::filesystem::file_size(path, no_size) > urban_nav_core::largestPiece() && !no_size)
     return {{}, path + ": a file of more than " + std::to_string(urban_nav_core::largestPiece() >> 20U) + " MB"};
@@ -48,13 +48,13 @@ GreyImage readPixels(const std::string& path) {
   if (bytes.empty()) return {{}, path + ": empty file"};
   if (!isComplete(bytes)) return {{}, path + ": ends early (" + std::to_string(bytes.size()) + " bytes)"};
   if (const std::string fault = urban_nav_core::imageFault(asText(bytes)); !fault.empty())
-    return {{}, path + ": no image that can be decoded: " + fault};
+    return {{}, path + ": not a decodable image: " + fault};
   try {
     cv::Mat pixels = cv::imdecode(bytes, cv::IMREAD_ANYDEPTH | cv::IMREAD_ANYCOLOR);
-    if (pixels.empty()) return {{}, path + ": no image that can be decoded"};
+    if (pixels.empty()) return {{}, path + ": not a decodable image"};
     return {pixels, {}};
   } catch (const cv::Exception& error) {
-    return {{}, path + ": no image that can be decoded (" + error.err + ")"};
+    return {{}, path + ": not a decodable image (" + error.err + ")"};
   }
 }
 

@@ -37,14 +37,14 @@ class KittiFolder : public Source {
     if (layout) listImages(*layout, options);
     if (options.with_sweeps) findSweeps(options);
     if (!layout && !options.with_sweeps)
-      throw urban_nav_core::DataError(folder, "has no images, and the sweeps of its LiDAR are of no use here", "");
+      throw urban_nav_core::DataError(folder, "has no images, and the sweeps of its LiDAR are not used here", "");
     if (!layout && !sweeps_)
       throw urban_nav_core::DataError(
           folder,
           "has no images, and no sweep that can be used" + (info_.notes.empty() ? "" : ": " + info_.notes.back()), "");
     if (urban_nav_core::toMotionChoice(options.motion_input).is_required)
-      throw urban_nav_core::DataError(
-          folder, "holds images alone, nothing for input.motion_input = " + options.motion_input, "");
+      throw urban_nav_core::DataError(folder,
+                                      "has only images, no data for input.motion_input = " + options.motion_input, "");
     if (layout) look(options.calibration);
     describeInputs();
     noteUnused(folder);

@@ -83,7 +83,7 @@ StereoCamera readKittiCamera(const KittiLayout& layout, int width, int height) {
     if (fs::exists(path)) return urban_nav_core::readKittiCalibration(path.string(), width, height, layout.pair);
   }
   throw UserError(
-      (folder / "calib.txt").string(), "is not there",
+      (folder / "calib.txt").string(), "does not exist",
       "calib.txt with rows P0 and P1, calib_cam_to_cam.txt, KITTI-360's calibration/perspective.txt, or --calibration "
       "FILE");
 }
@@ -106,7 +106,7 @@ KittiTimes readKittiTimes(const KittiLayout& layout) {
     for (const TextLine& line : readLines(times.path)) {
       const std::optional<StampNs> stamp = parseDateTime(line.text);
       if (!stamp)
-        throw UserError(atLine(times.path, line.number), "\"" + line.text + "\" is no date and time",
+        throw UserError(atLine(times.path, line.number), "\"" + line.text + "\" is not a date and time",
                         "2011-09-26 13:02:25.964389445");
       times.stamps.push_back(*stamp);
     }
@@ -145,7 +145,7 @@ std::vector<StampNs> stampKittiFrames(const KittiLayout& layout, const std::stri
   for (std::int64_t i = 0; i <= last - first; ++i)
     stamps.push_back(times.path.empty() ? static_cast<StampNs>(std::llround(static_cast<double>(i) * step))
                                         : times.stamps[static_cast<std::size_t>(row_of_first + i)]);
-  if (times.path.empty() && rate <= 0.0) notes.push_back("no times.txt: taken as 10 Hz (--rate says otherwise)");
+  if (times.path.empty() && rate <= 0.0) notes.push_back("no times.txt: taken as 10 Hz (override with --rate)");
   if (!times.path.empty() && row_of_first == first && last + 1 < rows)
     notes.push_back(times.path + " has " + std::to_string(rows) + " stamps, the " + what + " end at number " +
                     std::to_string(last));

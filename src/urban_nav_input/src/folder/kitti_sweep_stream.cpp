@@ -42,7 +42,7 @@ KittiSweepStream::KittiSweepStream(const KittiSweepLayout& layout, const urban_n
   const std::optional<urban_nav_core::Pose> T_camera_lidar = readKittiLidar(layout.folder);
   if (!T_camera_lidar) {
     notes_.push_back(layout.files +
-                     " is not used: there is no row Tr in calib.txt, and no calib_velo_to_cam.txt, so the place of the "
+                     " is not used: there is no row Tr in calib.txt, and no calib_velo_to_cam.txt, so the pose of the "
                      "LiDAR is unknown");
     return;
   }

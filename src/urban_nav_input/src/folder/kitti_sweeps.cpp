@@ -89,7 +89,7 @@ KittiCloud::KittiCloud(const std::string& path, urban_nav_core::StampNs stamp) :
     return;
   }
   if (stored.size() % kStored != 0)
-    fault_ = path + ": " + std::to_string(stored.size()) + " bytes are no whole number of points of 16 bytes";
+    fault_ = path + ": " + std::to_string(stored.size()) + " bytes are not a multiple of the 16 bytes of a point";
   const std::size_t points = stored.size() / kStored;
   bytes_.assign(points * kRecord, 0);
   for (std::size_t i = 0; i < points; ++i) std::memcpy(&bytes_[i * kRecord], &stored[i * kStored], kStored);

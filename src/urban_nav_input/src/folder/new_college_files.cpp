@@ -56,7 +56,7 @@ NewCollegeFiles findNewCollege(const std::string& source) {
   NewCollegeFiles files;
   fs::path folder(source);
   if (!fs::exists(folder))
-    throw UserError(source, "is not there", "a folder of the New College data set, or its .alog file");
+    throw UserError(source, "does not exist", "a folder of the New College data set, or its .alog file");
   if (!fs::is_directory(folder)) {
     files.alog = source;
     folder = fs::absolute(folder).parent_path();
@@ -89,7 +89,7 @@ NewCollegeFiles findNewCollege(const std::string& source) {
   std::sort(files.panorama.begin(), files.panorama.end(),
             [](const auto& a, const auto& b) { return std::pair(a.stamp, a.camera) < std::pair(b.stamp, b.camera); });
   if (files.alog.empty() && files.panorama.empty() && files.stereo.empty()) {
-    throw UserError(source, "holds nothing of the New College data set",
+    throw UserError(source, "contains no files of the New College data set",
                     "*.alog, ladybug_TIME-K.jpg, StereoImage__TIME-left.pnm");
   }
   return files;

@@ -22,7 +22,7 @@ namespace {
 class NewCollegeFolder : public Source {
  public:
   NewCollegeFolder(const std::string& folder, const SourceOptions& options) : files_(findNewCollege(folder)) {
-    if (files_.stereo.empty()) throw DataError(folder, "has no StereoImages: there is nothing for visual odometry", "");
+    if (files_.stereo.empty()) throw DataError(folder, "has no StereoImages, which visual odometry needs", "");
     info_.name = folder;
     info_.kind = "New College folder";
     info_.camera = newCollegeCamera();
@@ -31,9 +31,10 @@ class NewCollegeFolder : public Source {
     info_.first = files_.stereo.front().stamp;
     info_.last = files_.stereo.back().stamp;
     info_.notes.push_back(
-        "images taken as rectified, with the data set's calibration; the camera's place on the robot is not known: 0.1 "
+        "images assumed rectified, with the calibration of the data set; the pose of the camera on the robot is "
+        "unknown: 0.1 "
         "m ahead, 1.1 m up");
-    if (!options.calibration.empty()) info_.notes.push_back("--calibration is left aside: the data set's counts");
+    if (!options.calibration.empty()) info_.notes.push_back("--calibration is ignored: that of the data set is used");
     if (options.motion_input == "gyroscope")
       throw DataError(folder, "has no IMU for input.motion_input = gyroscope", "");
     const urban_nav_core::MotionChoice motion = urban_nav_core::toMotionChoice(options.motion_input);

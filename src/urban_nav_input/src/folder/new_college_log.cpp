@@ -118,7 +118,8 @@ NewCollegeScan NewCollegeLog::scan(const AlogRow& row, Side side) {
   const auto reflectances = fields.array("Reflectance", ranges.size());
   const double beams = step > 0.0 ? (last - first) / step + 1.0 : 0.0;
   if (std::abs(beams - static_cast<double>(ranges.size())) > 1e-6) {
-    throw UserError(where, std::to_string(ranges.size()) + " ranges", "as many as minAngle, maxAngle and angRes say");
+    throw UserError(where, std::to_string(ranges.size()) + " ranges",
+                    "as many as given by minAngle, maxAngle and angRes");
   }
   NewCollegeScan out;
   out.stamp = computeTime(row, fields);

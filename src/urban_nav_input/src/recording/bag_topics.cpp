@@ -118,7 +118,7 @@ void take(const std::map<std::string, std::string>& available, const std::string
     }
     const std::string found = topic == available.end() ? "is not in the bag" : "is of type " + topic->second;
     throw UserError("--topic " + wish, name + " " + found,
-                    candidates.empty() ? "none: the bag has no topic of this kind" : candidates);
+                    candidates.empty() ? "none: the bag has no topic of this type" : candidates);
   }
   topics.chosen[names->role] = {topic->first, topic->second};
 }
@@ -369,7 +369,7 @@ BagTopics chooseTopics(const std::map<std::string, std::string>& available, cons
   guessPoints(available, topics);
   noteTopics(wished, topics);
   if (topics.chosen.size() > wished.size())
-    topics.notes.push_back("guessed from types and names; --topic ROLE:=NAME decides");
+    topics.notes.push_back("guessed from types and names; override with --topic ROLE:=NAME");
   return topics;
 }
 

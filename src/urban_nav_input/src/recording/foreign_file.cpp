@@ -35,8 +35,8 @@ std::optional<ForeignInput> recogniseForeignFile(const std::string& path) {
   const std::string head = readHead(path);
   if (head.compare(0, kSqlite.size(), kSqlite) == 0) {
     if (!hasApplication(head))
-      return ForeignInput{"is a database without the tables topics and messages of rosbag2", "a .db3 of rosbag2"};
-    return ForeignInput{"is a store, not a recording", "--store " + path + " continues it"};
+      return ForeignInput{"is a database without the rosbag2 tables topics and messages", "a .db3 of rosbag2"};
+    return ForeignInput{"is a session store, not a recording", "--store " + path + " continues it"};
   }
   const std::string found = urban_nav_core::describeForeignContent(head);
   if (found.empty()) return std::nullopt;

@@ -8,7 +8,7 @@ namespace urban_nav_input {
 
 void throwDamaged(const std::string& path, const std::exception& found) {
   throw urban_nav_core::DataError(path, std::string("cannot be read: ") + found.what(),
-                                  "a whole recording (`rosbag reindex` mends a bag that was cut off)");
+                                  "an intact recording (`rosbag reindex` repairs a truncated bag)");
 }
 
 const Connection& RecordedMessage::connection() const { return file_->storage().connections()[connection_]; }

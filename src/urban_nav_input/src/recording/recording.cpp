@@ -66,7 +66,7 @@ std::string Recording::undecoded(const std::string& topic, const std::string& ty
   const ByteView bytes = first->bytes();
   if (bytes.data == nullptr) return "the first of its messages is damaged";
   if (connection.encoding == "cdr" && !cdrEncoding(bytes))
-    return "its messages are in a form of CDR that is not understood (XCDR2 or parameter lists)";
+    return "its messages have an unsupported form of CDR (XCDR2 or parameter lists)";
   return {};
 }
 

@@ -22,7 +22,7 @@ RecordingFile::Decoder& RecordingFile::decoder(std::size_t connection, const Rec
     if (!transcoder.isSame()) decoder.transcoder = std::move(transcoder);
   } catch (const std::invalid_argument& error) {
     throw urban_nav_core::DataError(path_ + ", topic " + source.topic,
-                                    "is not understood as " + source.type + ": " + error.what(), "");
+                                    "cannot be decoded as " + source.type + ": " + error.what(), "");
   }
   return decoder;
 }

@@ -107,7 +107,7 @@ std::unique_ptr<RecordingWriter> createRecording(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending == ".mcap") return std::make_unique<McapRecording>(path);
   if (ending == ".bag") return createBag(path);
-  throw urban_nav_core::UserError(path, "has the ending of no recording that can be written", ".bag, .mcap");
+  throw urban_nav_core::UserError(path, "has no file name extension of a recording format", ".bag, .mcap");
 }
 
 }  // namespace urban_nav_input

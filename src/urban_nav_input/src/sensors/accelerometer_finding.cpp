@@ -18,13 +18,12 @@ std::vector<Finding> accelerometerFindings(const std::string& topic, const Accel
       finding.options.insert(finding.options.end(), {"--set", "input." + setting.name + "=" + setting.value});
     for (std::size_t i = 0; i < finding.options.size(); ++i) finding.remedy += (i > 0 ? " " : "") + finding.options[i];
     finding.remedy +=
-        "; for later recordings let the driver state specific force in m/s2 in the axes of its frame, "
+        "; for later recordings let the driver publish specific force in m/s2 in the axes of its frame, "
         "9.81 upwards at rest";
   } else if (verdict.fault == AccelerometerFault::NoGravity) {
     finding.remedy = "record the topic of the driver that contains gravity (imu/data_raw, not linear acceleration)";
   } else if (verdict.fault == AccelerometerFault::Direction) {
-    finding.remedy =
-        "check the place of the device in /tf_static; --transform PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW states it";
+    finding.remedy = "check the pose of the device in /tf_static; --transform PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW sets it";
   } else {
     finding.remedy = "check the driver and the calibration of the device";
   }

@@ -60,22 +60,22 @@ std::vector<Finding> GpsExamination::findings(const std::string& topic) const {
   };
   add(no_stamp_, "have no stamp and are not used", "let the driver of the receiver stamp its fixes");
   add(no_angles_,
-      "have a latitude or longitude that is no angle in degrees (NaN, or radians times a factor) and are not used",
+      "have a latitude or longitude that is not an angle in degrees (NaN, or radians times a factor) and are not used",
       "check the driver of the receiver");
   add(at_zero_,
       "lie at latitude 0, longitude 0 and are not used: the receiver had no fix, although its status is that of a fix",
       "let the driver set status -1 without a fix");
   add(no_altitude_, "have no altitude (NaN); their horizontal position is used, their height is not",
-      "nothing has to be done; for later recordings let the receiver output its altitude (NMEA GGA)");
-  add(no_variance_, "state a covariance of zero; a standard deviation of 5 m is assumed",
-      "nothing has to be done; for later recordings let the driver state its covariance, or the type unknown");
+      "no action needed; for later recordings let the receiver output its altitude (NMEA GGA)");
+  add(no_variance_, "have a covariance of zero; a standard deviation of 5 m is assumed",
+      "no action needed; for later recordings let the driver publish its covariance, or the type unknown");
   if (jumps_ >= kFewJumps)
-    add(jumps_, "lie farther from the one before than any vehicle moves: the position jumps",
-        "check the antenna and its view of the sky; robust factors leave single ones out");
+    add(jumps_, "are farther from the previous fix than a vehicle can move: the position jumps",
+        "check the antenna and its view of the sky; robust factors reject single outliers");
   if (no_fix_ > 0 && 2 * no_fix_ > messages_)
     add(no_fix_, "have a status below 0 (no fix) and are not used", "check the antenna and its view of the sky");
   if (messages_ >= kFewFixes && 2 * repeated_ > messages_)
-    add(repeated_, "repeat the position before to all digits: the receiver or its driver is frozen",
+    add(repeated_, "repeat the previous position exactly: the receiver or its driver is frozen",
         "restart the driver, and publish each fix once");
   return findings;
 }

@@ -37,18 +37,18 @@ std::vector<Finding> groundFindings(const std::string& imu, const std::vector<Se
   const double ground_base = degreesBetween(ground, Vector3d::UnitZ()),
                force_base = degreesBetween(force, Vector3d::UnitZ()), both = degreesBetween(ground, force);
   const std::string transform =
-      "--transform PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW states its place; correct /tf_static for later recordings";
+      "--transform PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW sets its pose; correct /tf_static for later recordings";
   if (force_base > kTilted && ground_base < kAgree)
     return {{FindingKind::Imu,
              imu + ": the accelerometer measures up " + formatNumber(force_base, 3) +
-                 " deg from the z axis of base_link, and the ground that stereo sees is level with base_link to " +
-                 formatNumber(ground_base, 3) + " deg: the place of the IMU in tf is wrong, or its axes are",
+                 " deg from the z axis of base_link, and the ground measured by stereo is level with base_link to " +
+                 formatNumber(ground_base, 3) + " deg: the pose of the IMU in tf or its axes are wrong",
              transform}};
   if (ground_base > kTilted && force_base < kAgree && both > kTilted)
     return {{FindingKind::Tf,
-             "the ground that stereo sees is inclined by " + formatNumber(ground_base, 3) +
-                 " deg to base_link, and the accelerometer agrees with base_link to " + formatNumber(force_base, 3) +
-                 " deg: the place of the camera in tf is wrong",
+             "the ground measured by stereo is inclined by " + formatNumber(ground_base, 3) +
+                 " deg to base_link, and gravity is vertical in base_link to " + formatNumber(force_base, 3) +
+                 " deg: the pose of the camera in tf is wrong",
              transform}};
   return {};
 }

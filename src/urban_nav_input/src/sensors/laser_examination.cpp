@@ -148,23 +148,23 @@ std::vector<Finding> LaserExamination::findings() const {
     findings.push_back({FindingKind::Lasers,
                         topic_ + ": angle_min or angle_increment of " + share(completed_) +
                             " is zero or not finite (NaN); it is taken from angle_max and the number of beams",
-                        "nothing has to be done; for later recordings set the angles in the driver"});
+                        "no action needed; for later recordings set the angles in the driver"});
   if (no_limit_ > 0)
     findings.push_back(
         {FindingKind::Lasers,
          topic_ + ": range_max of " + share(no_limit_) + " is " +
              (no_limit_value_ < 0.0 ? "not finite or negative" : formatNumber(no_limit_value_, 3) + " m") +
              ", which leaves no range; all ranges are used",
-         "nothing has to be done; for later recordings set range_max in the driver"});
+         "no action needed; for later recordings set range_max in the driver"});
   if (no_time_ > 0)
     findings.push_back({FindingKind::Lasers,
                         topic_ + ": scan_time of " + share(no_time_) + " is not finite (NaN); it is not needed",
-                        "nothing has to be done; for later recordings set scan_time in the driver"});
+                        "no action needed; for later recordings set scan_time in the driver"});
   if (no_increment_ > 0)
     findings.push_back({FindingKind::Lasers,
                         topic_ + ": time_increment of " + share(no_increment_) +
                             " is not finite (NaN); the time from beam to beam is taken from scan_time",
-                        "nothing has to be done; for later recordings set time_increment in the driver"});
+                        "no action needed; for later recordings set time_increment in the driver"});
   if (std::optional<Finding> finding = turnFinding()) findings.push_back(*std::move(finding));
   if (other_end_ > 0)
     findings.push_back({FindingKind::Lasers,
@@ -174,7 +174,7 @@ std::vector<Finding> LaserExamination::findings() const {
                         "check angle_increment, angle_min and angle_max of the driver"});
   if (scans_ >= kFewScans && 2 * repeated_ > scans_ && valid_ > 0)
     findings.push_back({FindingKind::Lasers,
-                        topic_ + ": " + share(repeated_) + " repeat the ranges of the one before to all digits: frozen",
+                        topic_ + ": " + share(repeated_) + " repeat the ranges of the previous scan exactly: frozen",
                         "restart the driver of this laser, and publish each scan once"});
   if (used_ >= kFewScans && static_cast<double>(valid_) < kFewValid * static_cast<double>(beams_))
     findings.push_back({FindingKind::Lasers,

@@ -82,19 +82,18 @@ std::optional<Finding> LaserGround::finding(const std::string& role, const std::
   const double scale = drop / (laser_height_ - *by_laser);
   const std::string parameter = "input." + role + "_range_scale=";
   Finding finding{FindingKind::Lasers,
-                  topic + ": the ground it sees is at a height of " + formatNumber(*by_laser, 3) +
-                      " m in base_link, and that which stereo sees at " + formatNumber(*by_stereo, 3) +
-                      " m: its ranges are " + formatNumber(1.0 / scale, 3) +
-                      " times the true ones, or its place in tf is " + formatNumber(std::abs(apart), 3) + " m too " +
-                      (apart < 0.0 ? "low" : "high"),
+                  topic + ": the ground it measures is at a height of " + formatNumber(*by_laser, 3) +
+                      " m in base_link, that of stereo at " + formatNumber(*by_stereo, 3) + " m: its ranges are " +
+                      formatNumber(1.0 / scale, 3) + " times the true ones, or its pose in tf is " +
+                      formatNumber(std::abs(apart), 3) + " m too " + (apart < 0.0 ? "low" : "high"),
                   "--set " + parameter + formatNumber(scale, 3) +
-                      " where the ranges are wrong (other scales are multiplied with it), --transform "
-                      "PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW where the place is"};
+                      " if the ranges are wrong (multiplied with other scales), --transform "
+                      "PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW if the pose is"};
   if (std::abs(scale / kFoot - 1.0) > kFootTolerance) return finding;
-  finding.text += "; likely its ranges are in feet";
+  finding.text += "; its ranges are probably in feet";
   finding.options = {"--set", parameter + urban_nav_core::printNumber(kFoot * range_scale)};
   finding.remedy = finding.options[0] + " " + finding.options[1] +
-                   " where they are in feet, --transform PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW where the place is wrong; for "
+                   " if they are in feet, --transform PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW if the pose is wrong; for "
                    "later recordings let the driver publish metres";
   return finding;
 }

@@ -166,17 +166,17 @@ std::optional<Finding> MotionExamination::distanceFinding(const Ratios& ratios, 
   if (ratio && ratio->value != 0.0 && !isOne(ratio->value))
     return scaleFinding(FindingKind::Wheels,
                         wheels + ": its distances are " + formatNumber(ratio->value, 3) +
-                            " times those that stereo sees (" + std::to_string(ratio->intervals) +
+                            " times those measured by stereo (" + std::to_string(ratio->intervals) +
                             " intervals): " + distanceCause(ratio->value),
                         "wheels_scale", rounded(present.wheels_scale / nameable(ratio->value)),
-                        "let the driver of the wheels state metres, forward positive");
+                        "let the driver of the wheels publish metres, forward positive");
   if (wheels_.empty() || by_speed_ <= kFewMetres) return std::nullopt;
   const auto [least, most] = std::minmax_element(wheels_.begin(), wheels_.end());
   if ((*most)[0] - (*least)[0] >= 0.01 * by_speed_) return std::nullopt;
   return Finding{FindingKind::Wheels,
-                 wheels + ": its twist makes a distance of " + formatNumber(by_speed_, 3) +
-                     " m, and its pose does not move: wheel odometry is not integrated, and is of no use",
-                 "let the driver of the wheels state a pose and the twist"};
+                 wheels + ": its twist integrates to a distance of " + formatNumber(by_speed_, 3) +
+                     " m, but its pose does not move: wheel odometry is not integrated and cannot be used",
+                 "let the driver of the wheels publish a pose and the twist"};
 }
 
 std::optional<Finding> MotionExamination::turnFinding(const Ratios& ratios, bool are_wheels_sound,
@@ -187,16 +187,16 @@ std::optional<Finding> MotionExamination::turnFinding(const Ratios& ratios, bool
   if (!turn && are_wheels_sound) turn = findTurnRatio(ratios.gyroscope_wheels, 5.0 * kLeastTurn);
   if (!turn || turn->value == 0.0 || isOne(turn->value)) return std::nullopt;
   const double named = nameable(turn->value);
-  const std::string text = imu + ": its turns are " + formatNumber(turn->value, 3) + " times those that " +
-                           (by_stereo ? "stereo sees" : "the wheels state") + " (" + std::to_string(turn->intervals) +
+  const std::string text = imu + ": its rotations are " + formatNumber(turn->value, 3) + " times those measured by " +
+                           (by_stereo ? "stereo" : "the wheels") + " (" + std::to_string(turn->intervals) +
                            " intervals): ";
   if (named > 0.0)
     return scaleFinding(FindingKind::Imu,
                         text + (named == kDegreesPerRadian ? "rates are in deg/s" : "the scale of rates is wrong"),
-                        "gyroscope_scale", present.gyroscope_scale / named, "let the driver of the IMU state rad/s");
+                        "gyroscope_scale", present.gyroscope_scale / named, "let the driver of the IMU publish rad/s");
   return Finding{FindingKind::Imu,
                  text + "axes of the gyroscope have the wrong sign, as between NED and the axes of ROS",
-                 "--transform PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW states the axes of the device; for later "
+                 "--transform PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW sets the axes of the device; for later "
                  "recordings let the driver publish axes of ROS (REP-103)"};
 }
 
@@ -210,10 +210,10 @@ std::vector<Finding> MotionExamination::findings(const std::vector<SeenMotion>& 
   const bool are_turns_sound = !turn || turn->value >= 0.0;
   if (!are_turns_sound)
     findings.push_back({FindingKind::Wheels,
-                        wheels + ": its turns are " + formatNumber(turn->value, 3) +
-                            " times those that stereo sees: left and right wheel are exchanged, or turns are "
+                        wheels + ": its rotations are " + formatNumber(turn->value, 3) +
+                            " times those measured by stereo: left and right wheel are exchanged, or rotations are "
                             "positive clockwise",
-                        "let the driver of the wheels state turns to the left as positive (REP-103)"});
+                        "let the driver of the wheels publish rotations to the left as positive (REP-103)"});
   if (auto finding = turnFinding(ratios, are_turns_sound, imu, present)) findings.push_back(std::move(*finding));
   return findings;
 }

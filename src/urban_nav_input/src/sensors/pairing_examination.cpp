@@ -79,8 +79,8 @@ std::string describe(const PairingVerdict& verdict) {
     return "the right images are stamped " + printNumber(std::abs(toMs(verdict.most))) + " ms " +
            (verdict.most > 0 ? "later" : "earlier") + " than the left ones";
   return "the right images are stamped between " + printNumber(toMs(verdict.least)) + " ms and " +
-         printNumber(toMs(verdict.most)) + " ms later than the left ones, by varying times" +
-         (verdict.repair ? "" : ": the two cameras run freely, or one of them loses images");
+         printNumber(toMs(verdict.most)) + " ms later than the left ones, with a varying delay" +
+         (verdict.repair ? "" : ": the two cameras are not synchronised, or one of them loses images");
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ std::vector<Finding> PairingExamination::findings(const std::array<std::string, 
       finding.options = toOptions(*verdict->repair, present);
       std::string remedy = "if the two cameras are exposed together,";
       for (const std::string& option : finding.options) remedy += " " + option;
-      finding.remedy = remedy + " repairs it; for later recordings, " + finding.remedy;
+      finding.remedy = remedy + " corrects it; for later recordings, " + finding.remedy;
     }
     findings.push_back(std::move(finding));
     return findings;

@@ -35,10 +35,10 @@ std::vector<Finding> placeFindings(const std::string& frame, const urban_nav_cor
   Finding finding{FindingKind::Tf,
                   "\"" + frame + "\" is " + formatNumber(away, 4) + " m from base_link by tf: in millimetres it is " +
                       formatNumber(0.001 * away, 3) + " m, in centimetres " + formatNumber(0.01 * away, 3) + " m",
-                  "let the robot description state metres"};
+                  "use metres in the robot description"};
   if (away > kCentimetres && away < kMillimetres) {
-    finding.remedy = "--transform base_link," + frame +
-                     ":X,Y,Z,QX,QY,QZ,QW states it in metres; for later recordings " + finding.remedy;
+    finding.remedy = "--transform base_link," + frame + ":X,Y,Z,QX,QY,QZ,QW sets it in metres; for later recordings " +
+                     finding.remedy;
     return {finding};
   }
   finding.options = {"--transform", printTransform(frame, T_base_sensor, away >= kMillimetres ? 0.001 : 0.01)};

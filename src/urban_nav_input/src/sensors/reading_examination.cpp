@@ -46,7 +46,7 @@ std::vector<Finding> ReadingExamination::findings(const std::string& topic, Find
                             " s after the first; they are not used",
                         "check the driver of this device, and its cable"});
   if (is_frozen_odd && messages_ >= kFewReadings && 2 * repeated_ > messages_)
-    findings.push_back({kind, topic + ": " + percent(repeated_) + " repeat the one before to all digits: frozen",
+    findings.push_back({kind, topic + ": " + percent(repeated_) + " repeat the previous reading exactly: frozen",
                         "restart the driver of this device, and publish each reading once"});
   return findings;
 }

@@ -90,10 +90,9 @@ void SweepExamination::unitFinding(std::vector<Finding>& findings) const {
   const std::string stated = urban_nav_core::printPointTimes(convention_.times);
   if (too_long_ + constant_ == 0) {
     findings.push_back({FindingKind::SweepTimes,
-                        topic_ + ": the values of field " + convention_.suspect + " are those of a sweep in the unit " +
-                            toString(convention_.times.unit) + ", not in s as drivers write such a field; read as " +
-                            stated,
-                        "nothing has to be done; the option states what was found",
+                        topic_ + ": the values of field " + convention_.suspect + " fit a sweep in the unit " +
+                            toString(convention_.times.unit) + ", not in s as usual for this field; read as " + stated,
+                        "no action needed; the option sets the unit that was found",
                         false,
                         {"--set", "input.points_time=" + stated}});
     return;
@@ -101,14 +100,14 @@ void SweepExamination::unitFinding(std::vector<Finding>& findings) const {
   findings.push_back({FindingKind::SweepTimes,
                       topic_ + ": by input.points_time = " + stated + " the times of a sweep span " +
                           (too_long_ > 0 ? "more than 1 s" : "nothing") +
-                          ": the unit is another one, and sweeps are not deskewed",
-                      "--set input.points_time=auto finds the unit from the values",
+                          ": the unit is wrong, and sweeps are not deskewed",
+                      "--set input.points_time=auto determines the unit from the values",
                       false,
                       {"--set", "input.points_time=auto"}});
 }
 
 void SweepExamination::timesFindings(std::vector<Finding>& findings) const {
-  const std::string consequence = "; sweeps are not deskewed, and the error of that is in their covariance";
+  const std::string consequence = "; sweeps are not deskewed, and their covariance contains the resulting error";
   const std::string field = topic_ + ": field " + convention_.suspect;
   const auto append = [&](FindingKind kind, const std::string& text, const std::string& remedy) {
     findings.push_back({kind, text, remedy});
@@ -116,9 +115,10 @@ void SweepExamination::timesFindings(std::vector<Finding>& findings) const {
   switch (convention_.fault) {
     case PointTimesFault::None: break;
     case PointTimesFault::Absent:
-      append(FindingKind::SweepTimes, topic_ + ": clouds without times of their points" + consequence,
-             "let the driver write the time of each point; --set input.points_time=FIELD,UNIT,REFERENCE names a field "
-             "that holds it");
+      append(
+          FindingKind::SweepTimes, topic_ + ": clouds without times of the points" + consequence,
+          "let the driver write the time of each point; --set input.points_time=FIELD,UNIT,REFERENCE names the field "
+          "that holds it");
       break;
     case PointTimesFault::Constant:
       append(FindingKind::SweepTimes, field + " has the same time for all points of a cloud" + consequence,
@@ -136,7 +136,7 @@ void SweepExamination::timesFindings(std::vector<Finding>& findings) const {
       append(FindingKind::ClockApart,
              field + " is " + formatNumber(std::abs(convention_.clock), 6) + " s " +
                  (convention_.clock > 0.0 ? "later" : "earlier") +
-                 " than the stamps of the headers: another clock; sweeps are placed by their headers",
+                 " than the stamps of the headers: a different clock; the stamps of the headers are used",
              "synchronise the LiDAR's clock (PTP, with UTC), or let the driver stamp headers by it");
       break;
   }
@@ -146,7 +146,7 @@ void SweepExamination::timesFindings(std::vector<Finding>& findings) const {
            topic_ + ": " + share(constant_) +
                " have the same time for all points, and are "
                "not deskewed",
-           "nothing has to be done if they are few; check the driver otherwise");
+           "no action needed if they are few; check the driver otherwise");
   if (decreasing_ > 0 && convention_.times.areKnown())
     append(FindingKind::SweepTimes,
            topic_ + ": the times of " + share(decreasing_) + " decrease from point to point, and are not used",
@@ -158,18 +158,18 @@ void SweepExamination::timesFindings(std::vector<Finding>& findings) const {
   if (moved_ > 0)
     append(FindingKind::ClockApart,
            topic_ + ": the times of the points of " + share(moved_) +
-               " are more than 1 s from the stamps of their headers; these sweeps are placed by their headers",
+               " are more than 1 s from the stamps of their headers; the stamps of the headers are used",
            "synchronise the LiDAR's clock (PTP) before recording");
 }
 
 void SweepExamination::orderFindings(std::vector<Finding>& findings) const {
   if (late_ > 0)
     findings.push_back({FindingKind::SweepOverlap,
-                        topic_ + ": " + share(late_) + " are no later than the sweep before, and are not used",
+                        topic_ + ": " + share(late_) + " are not later than the previous sweep and are not used",
                         "record the topic once; check the clock of the LiDAR"});
   if (overlaps_ > 0)
     findings.push_back({FindingKind::SweepOverlap,
-                        topic_ + ": " + share(overlaps_) + " begin before the sweep before has ended, by up to " +
+                        topic_ + ": " + share(overlaps_) + " begin before the end of the previous sweep, by up to " +
                             formatNumber(overlap_s_, 3) + " s: they overlap",
                         "check whether two sensors publish on this topic, and the unit and the reference of the times "
                         "(--set input.points_time=FIELD,UNIT,REFERENCE)"});
@@ -188,7 +188,7 @@ void SweepExamination::orderFindings(std::vector<Finding>& findings) const {
                       topic_ + ": " + std::to_string(gaps) + (gaps == 1 ? " gap" : " gaps") + " between sweeps, some " +
                           std::to_string(lost) + " sweeps lost, the longest gap " +
                           formatNumber(intervals_[longest], 3) + " s after " +
-                          urban_nav_core::printStamp(begins_[longest]) + " (usual interval " + formatNumber(usual, 3) +
+                          urban_nav_core::printStamp(begins_[longest]) + " (median interval " + formatNumber(usual, 3) +
                           " s)",
                       "check the network and the buffers of driver and recorder; over a gap the motion is predicted"});
 }
@@ -197,9 +197,9 @@ void SweepExamination::ringFindings(std::vector<Finding>& findings) const {
   if (!convention_.are_rings_sorted)
     findings.push_back({FindingKind::RingOrder,
                         topic_ + ": the numbers in field " + convention_.ring_field +
-                            " do not follow the elevations of the rings: they are those of the firing order, and are "
-                            "replaced by places in the order of elevation",
-                        "nothing has to be done; other programs need a driver that numbers rings by elevation"});
+                            " do not follow the elevation of the rings: they follow the firing order, and are "
+                            "renumbered by elevation",
+                        "no action needed; other programs need a driver that numbers rings by elevation"});
   if (!convention_.absent_rings.empty()) {
     std::string numbers;
     constexpr std::size_t kMostNamed = 8;
@@ -209,7 +209,7 @@ void SweepExamination::ringFindings(std::vector<Finding>& findings) const {
                         topic_ + ": " + std::to_string(convention_.absent_rings.size()) + " of " +
                             std::to_string(convention_.ring_count) + " rings have no points: " + numbers +
                             (convention_.absent_rings.size() > kMostNamed ? " ..." : ""),
-                        "nothing has to be done if the driver leaves them out; otherwise lasers have failed or their "
+                        "no action needed if the driver leaves them out; otherwise lasers have failed or their "
                         "packets are lost"});
   }
   const bool are_many = static_cast<double>(incomplete_) > kFewSweeps * static_cast<double>(sweeps_);
@@ -225,7 +225,7 @@ void SweepExamination::pointFindings(std::vector<Finding>& findings) const {
                         "check the driver; the clouds need fields x, y and z with one number each"});
   if (truncated_ > 0)
     findings.push_back({FindingKind::PointsInvalid,
-                        topic_ + ": " + share(truncated_) + " hold fewer points than they announce",
+                        topic_ + ": " + share(truncated_) + " have fewer points than declared",
                         "check the driver, and whether the recording is damaged"});
   if (empty_ > 0) {
     Finding finding{FindingKind::PointsInvalid,
@@ -247,9 +247,9 @@ void SweepExamination::pointFindings(std::vector<Finding>& findings) const {
   if (const double near = computeMedian(near_shares_); near > kManyNear)
     findings.push_back({FindingKind::PointsNear,
                         topic_ + ": " + inPercent(near) + " of the returns are within " + formatNumber(near_, 3) +
-                            " m of the LiDAR: it is covered, or sees the robot itself; they are not used",
+                            " m of the LiDAR: it is covered, or hits the robot itself; they are not used",
                         "mount the LiDAR higher or mask these directions in the driver; --set input.points_near=M "
-                        "states another limit, m"});
+                        "sets another limit, m"});
 }
 
 std::vector<Finding> SweepExamination::findings() const {

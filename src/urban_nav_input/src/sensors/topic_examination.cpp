@@ -13,10 +13,8 @@ bool isChosen(const BagTopics& chosen, const std::string& topic) {
 }
 
 Finding unrecognised(const std::string& topic, const std::string& type, Role role) {
-  Finding finding{
-      FindingKind::Topics,
-      topic + " (" + type + ") is not used: no role follows from its name, and it would serve as " + toString(role),
-      ""};
+  Finding finding{FindingKind::Topics,
+                  topic + " (" + type + ") is not used: its name indicates no role; it could be " + toString(role), ""};
   finding.options = {"--topic", std::string(toString(role)) + ":=" + topic};
   finding.remedy = finding.options[0] + " " + finding.options[1];
   return finding;

@@ -35,7 +35,7 @@ std::vector<std::string> describeOrder(const StampSurvey& survey, bool is_sorted
   if (survey.unset || survey.constant)
     notes.push_back(std::string(survey.unset ? "no header has a stamp" : "all stamps of a topic are equal") +
                     ": the times at which messages were received are used instead");
-  if (is_sorted) notes.push_back("messages lie in another order than their stamps: sorted by stamp");
+  if (is_sorted) notes.push_back("messages are not in the order of their stamps: sorted by stamp");
   if (survey.back > kClockStep)
     notes.push_back("stamps step back by " +
                     urban_nav_core::printNumber(std::round(1e-7 * static_cast<double>(survey.back)) / 100.0) +

@@ -12,7 +12,7 @@ std::string listImageTopics(Recording& recording) {
   std::string text;
   for (const auto& [topic, type] : recording.topicTypes())
     if (isImageType(type)) text += (text.empty() ? "" : ", ") + topic;
-  return text.empty() ? "it has no images at all" : text + " (--topic left:=NAME --topic right:=NAME)";
+  return text.empty() ? "it has no images" : text + " (--topic left:=NAME --topic right:=NAME)";
 }
 
 urban_nav_core::MotionChoice chooseMotion(const BagTopics& topics, const std::string& motion_input,

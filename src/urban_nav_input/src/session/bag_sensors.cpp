@@ -139,11 +139,12 @@ std::vector<Finding> BagSensors::sightFindings(const Sight& sight, double stereo
 
 std::vector<Finding> BagSensors::laserGroundFindings(const std::vector<double>& stereo) const {
   if (areExchanged(laser_grounds_, exchanged_grounds_, stereo)) {
-    Finding finding{FindingKind::Lasers,
-                    laser_topics_[0] + " and " + laser_topics_[1] +
-                        " are exchanged: each laser sees the ground where stereo does from the place of the other one",
-                    "--transform with their places exchanged; for later recordings exchange the cables, the ports or "
-                    "the names of the two lasers"};
+    Finding finding{
+        FindingKind::Lasers,
+        laser_topics_[0] + " and " + laser_topics_[1] +
+            " are exchanged: the ground measured by each laser agrees with stereo at the mounting of the other one",
+        "--transform with their mountings exchanged; for later recordings exchange the cables, the ports or "
+        "the names of the two lasers"};
     for (const std::size_t i : {std::size_t{0}, std::size_t{1}})
       for (std::string& option : placeOptions(laser_places_[i].first, laser_places_[1 - i].second))
         finding.options.push_back(std::move(option));

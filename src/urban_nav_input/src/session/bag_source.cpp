@@ -67,7 +67,7 @@ class BagSource : public Source {
                       "has no stereo pair of image topics: " + listImageTopics(recording_) +
                           (planar_clouds_.findings().empty()
                                ? ""
-                               : "; " + planar_clouds_.findings().front().text + ", and hold no pose in space"),
+                               : "; " + planar_clouds_.findings().front().text + ", and have no 3D pose"),
                       "");
     if (info_.has_images) motion_ = chooseMotion(topics_, options.motion_input, name_);
     info_.name = name_ + (paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " more" : "");
@@ -171,7 +171,7 @@ class BagSource : public Source {
     }
     info_.T_base_camera = urban_nav_ros::opticalInBody() * calibration_->T_optical_rectified();
     info_.notes.push_back("no static tf from base_link to \"" + camera_frame_ +
-                          "\": base_link is taken to be at the left camera (REP-103 axes)");
+                          "\": base_link is assumed at the left camera (REP-103 axes)");
   }
 
   void place() {
@@ -195,7 +195,7 @@ class BagSource : public Source {
     else if (imu)
       info_.notes.push_back("no static tf from base_link to \"" + imu->header.frame_id + "\": the axes of " +
                             topics_.find(Role::Imu)->name +
-                            " are taken to be those of base_link for its gyroscope, and its accelerometer is not used");
+                            " are assumed to be those of base_link for its gyroscope; its accelerometer is not used");
     for (const Role role : {Role::LaserLeft, Role::LaserRight}) {
       const std::optional<ChosenTopic> topic = topics_.find(role);
       const auto scan = topic ? planar_clouds_.first(recording_, topic->name) : nullptr;
@@ -313,7 +313,7 @@ class BagSource : public Source {
   void archive(urban_nav_core::Archive& archive) {
     bool has_images = info_.has_images;
     archive(has_images);
-    archive.require(has_images == info_.has_images, "images, or none, in contrast to these bags");
+    archive.require(has_images == info_.has_images, "images in all bags, or in none");
     if (has_images) {
       archive(info_.camera, info_.T_base_camera);
       for (const Role role : {Role::Left, Role::Right}) archive(topics_.chosen[role].name, topics_.chosen[role].type);
@@ -352,14 +352,14 @@ class BagSource : public Source {
     };
     if ((info_.has_images && !isApprox(here.camera, info_.camera, 0.0)) ||
         (is_placed_ && !same(here.T_base_camera, info_.T_base_camera)) || (R_base_imu && R_base_imu != R_base_imu_))
-      throw UserError(name_, "has another calibration than the bags before it", "the same one");
+      throw UserError(name_, "has a different calibration than the previous bags", "the same one");
     for (const Role role : {Role::Left, Role::Right})
       if (info_.has_images &&
           (topics.find(role)->name != topics_.find(role)->name || topics.find(role)->type != topics_.find(role)->type))
-        throw UserError(name_, "has other topics than the bags before it", topics_.find(role)->name);
+        throw UserError(name_, "has different topics than the previous bags", topics_.find(role)->name);
     while (group_ < groups_.size() && groups_[group_].end <= after.bags) ++group_;
     const std::size_t begun = group_ == 0 ? 0 : groups_[group_ - 1].end;
-    if (begun != after.bags) throw UserError(name_, "is no end of what was recorded at the same time", "");
+    if (begun != after.bags) throw UserError(name_, "is not the last bag of those recorded at the same time", "");
     if (after.bags == 0) info_.frames = 0;  // the number in the bags before is unknown
     if (info_.has_images && !is_placed_ && !same(here.T_base_camera, info_.T_base_camera))
       info_.notes.pop_back();  // they say the place

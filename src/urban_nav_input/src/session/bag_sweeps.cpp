@@ -58,7 +58,7 @@ BagSweeps::BagSweeps(Recording& recording, const BagTopics& topics, const urban_
     if (!lidar.T_base_lidar) {
       const bool is_base = !is_placed && &lidar == &lidars.front();
       notes_.push_back("no static tf from base_link to \"" + lidar.stream.frame + "\": " +
-                       (is_base ? "base_link is taken to be at this LiDAR, " + lidar.stream.topic
+                       (is_base ? "base_link is assumed at this LiDAR, " + lidar.stream.topic
                                 : lidar.stream.topic + " is not used"));
       if (!is_base) continue;
     }
@@ -112,7 +112,7 @@ bool BagSweeps::add(const RecordedMessage& message) {
   if (stream == streams_.end()) return false;
   const std::optional<CloudMessages::Cloud> cloud = messages_.read(message);
   if (!cloud) {
-    stream->addFault("its bytes are not those of its type");
+    stream->addFault("its size does not match its type");
     return true;
   }
   if (std::optional<SweepInput> sweep = stream->read(cloud->view)) {
@@ -174,7 +174,7 @@ void BagSweeps::archive(urban_nav_core::Archive& archive) {
   }
   for (LidarStream& stream : streams_) archive(stream);
   archive(newest_);
-  archive.require(newest_.size() == streams_.size(), "references of LiDARs that there are not");
+  archive.require(newest_.size() == streams_.size(), "references to unknown LiDARs");
 }
 
 }  // namespace urban_nav_input

@@ -59,7 +59,7 @@ void checkBaseline(const urban_nav_core::StereoCamera& camera, double present_sc
   const bool is_clear = !causes.empty() && (causes.size() == 1 || causes[1].distance - causes[0].distance > kClear);
   if (is_clear) {
     finding.options = {"--set", "input.baseline_scale=" + urban_nav_core::printNumber(causes[0].scale * present_scale)};
-    finding.remedy = finding.options[0] + " " + finding.options[1] + " takes it as stated " + causes[0].name +
+    finding.remedy = finding.options[0] + " " + finding.options[1] + " accepts it as stated " + causes[0].name +
                      "; for later recordings: " + finding.remedy;
   } else if (!causes.empty()) {
     finding.remedy =
@@ -73,8 +73,8 @@ void checkView(const urban_nav_core::Pinhole& camera, std::vector<Finding>& find
   if (degrees < kNarrowestView || degrees > kWidestView)
     findings.push_back({FindingKind::Calibration,
                         "a focal length of " + printedValue(camera.fx) + " px for " + std::to_string(camera.width) +
-                            " columns is a field of view of " + printedValue(degrees) + " deg",
-                        "state the focal length in pixels of the images as they were recorded"});
+                            " columns gives a field of view of " + printedValue(degrees) + " deg",
+                        "use the focal length in pixels of the recorded images"});
 }
 
 void checkPrincipalPoint(const urban_nav_core::Pinhole& camera, std::vector<Finding>& findings) {
@@ -84,10 +84,10 @@ void checkPrincipalPoint(const urban_nav_core::Pinhole& camera, std::vector<Find
   const double factor = 0.5 * (across + down) / 0.5;
   std::string scale;
   if (std::abs(across - down) < 0.1 && (factor > 1.5 || factor < 0.67))
-    scale = "; the calibration seems to be of images " + printedValue(factor) + " times as large";
+    scale = "; the calibration seems to be for images " + printedValue(factor) + " times as large";
   findings.push_back({FindingKind::Calibration,
                       "the principal point (" + printedValue(camera.cx) + ", " + printedValue(camera.cy) +
-                          ") px is far from the middle of " + std::to_string(camera.width) + "x" +
+                          ") px is far from the centre of " + std::to_string(camera.width) + "x" +
                           std::to_string(camera.height) + " px" + scale,
                       "scale the calibration to the size of the images (camera_info: K, P, width and height)"});
 }
@@ -102,7 +102,7 @@ std::vector<Finding> checkCalibration(const urban_nav_core::StereoCamera& camera
   if (std::abs(camera.left.fx / camera.left.fy - 1.0) > 0.2)
     findings.push_back({FindingKind::Calibration,
                         "fx is " + printedValue(camera.left.fx) + " px and fy " + printedValue(camera.left.fy) + " px",
-                        "check K and P: pixels of today's cameras are square"});
+                        "check K and P: pixels are expected to be square"});
   return findings;
 }
 

@@ -24,16 +24,16 @@ std::vector<double> readNumbers(const std::string& text, const std::string& numb
   for (std::string word; std::getline(words, word, ',');) {
     char* end = nullptr;
     values.push_back(std::strtod(word.c_str(), &end));
-    if (word.empty() || *end != '\0' || !std::isfinite(values.back())) refuse(text, "\"" + word + "\" is no number");
+    if (word.empty() || *end != '\0' || !std::isfinite(values.back())) refuse(text, "\"" + word + "\" is not a number");
   }
-  if (values.size() != 7) refuse(text, std::to_string(values.size()) + " numbers in place of 7");
+  if (values.size() != 7) refuse(text, std::to_string(values.size()) + " numbers instead of 7");
   return values;
 }
 
 geometry_msgs::TransformStamped parse(const std::string& text) {
   const std::size_t comma = text.find(','), colon = text.find(':', comma == std::string::npos ? 0 : comma);
   if (comma == std::string::npos || colon == std::string::npos || comma == 0 || colon == comma + 1)
-    refuse(text, "names no two frames");
+    refuse(text, "does not name two frames");
   const std::vector<double> values = readNumbers(text, text.substr(colon + 1));
   const urban_nav_core::Quaterniond rotation(values[6], values[3], values[4], values[5]);
   if (std::abs(rotation.norm() - 1.0) > kUnitTolerance)

@@ -28,8 +28,8 @@ std::vector<urban_nav_core::Row<P>> pairRows() {
        -1000.0,
        1000.0,
        {},
-       "how much later the right images of a bag are stamped than the left ones, though they are exposed "
-       "together; it is taken from their stamps",
+       "Delay of the stamps of the right images of a bag relative to left images of the same exposure; subtracted "
+       "from the stamps.",
        "docs/files.md"},
       {"pairing_tolerance",
        &P::pairing_tolerance,
@@ -38,7 +38,7 @@ std::vector<urban_nav_core::Row<P>> pairRows() {
        0.1,
        1000.0,
        {},
-       "Largest difference between the stamps of the two images of a pair: less than half of the interval between "
+       "Largest difference between the stamps of the two images of a pair; less than half of the interval between "
        "images.",
        "docs/files.md",
        {},
@@ -50,7 +50,7 @@ std::vector<urban_nav_core::Row<P>> pairRows() {
        -1e6,
        1e6,
        {},
-       "Baseline of 1 in the calibration: 0.01 where it states centimetres, -1 where it has the wrong sign.",
+       "Length of one unit of the baseline in the calibration: 0.01 for centimetres, -1 for the wrong sign.",
        "docs/files.md",
        {},
        kRepair},
@@ -61,53 +61,50 @@ std::vector<urban_nav_core::Row<P>> pairRows() {
        false,
        false,
        {"auto", "apart", "together"},
-       "Which recordings form a session: auto: those less than 5 s apart, unless they hold images of one topic at the "
-       "same time; apart: each one; together: all of them.",
+       "Recordings that form a session. auto: those less than 5 s apart, unless they have images of one topic at the "
+       "same time; apart: each recording; together: all of them.",
        "docs/files.md",
        {},
        kRepair}};
 }
 
 std::vector<urban_nav_core::Row<P>> pointsRows() {
-  return {
-      {"points_time",
-       &P::points_time,
-       "",
-       "auto",
-       false,
-       false,
-       {},
-       "Times of the points of 3D LiDARs: FIELD,UNIT,REFERENCE with UNIT s, ms, us or ns and REFERENCE header (the "
-       "value is added to the stamp of the header) or absolute (it is the stamp); none: clouds have none; auto: found "
-       "from the values.",
-       "docs/files.md",
-       {},
-       kRepair},
-      {"points_deskewed",
-       &P::points_deskewed,
-       "",
-       "auto",
-       false,
-       false,
-       {"auto", "yes", "no"},
-       "Whether the sweeps of 3D LiDARs are free of the motion within a sweep already; auto: those of KITTI's "
-       "velodyne/ are.",
-       "docs/files.md",
-       {},
-       kRepair},
-      {"points_near",
-       &P::points_near,
-       "m",
-       0.5,
-       0.0,
-       10.0,
-       {},
-       "Returns of 3D LiDARs nearer than this are of the robot itself, and are left out.",
-       "docs/files.md",
-       {},
-       kRepair},
-      urban_nav_ros::delayRow<P>("points0_delay", &P::points0_delay, "clouds of points0"),
-      urban_nav_ros::delayRow<P>("points1_delay", &P::points1_delay, "clouds of points1")};
+  return {{"points_time",
+           &P::points_time,
+           "",
+           "auto",
+           false,
+           false,
+           {},
+           "Times of the points of 3D LiDARs: FIELD,UNIT,REFERENCE with UNIT s, ms, us or ns and REFERENCE header "
+           "(relative to the stamp of the header) or absolute; none: no times; auto: determined from the values.",
+           "docs/files.md",
+           {},
+           kRepair},
+          {"points_deskewed",
+           &P::points_deskewed,
+           "",
+           "auto",
+           false,
+           false,
+           {"auto", "yes", "no"},
+           "Whether the sweeps of 3D LiDARs are already motion-compensated; auto: only those of KITTI's velodyne/.",
+           "docs/files.md",
+           {},
+           kRepair},
+          {"points_near",
+           &P::points_near,
+           "m",
+           0.5,
+           0.0,
+           10.0,
+           {},
+           "Returns of 3D LiDARs nearer than this are from the robot itself and are ignored.",
+           "docs/files.md",
+           {},
+           kRepair},
+          urban_nav_ros::delayRow<P>("points0_delay", &P::points0_delay, "clouds of points0"),
+          urban_nav_ros::delayRow<P>("points1_delay", &P::points1_delay, "clouds of points1")};
 }
 
 PointsOptions toPointsOptions(const P& parameters) {
@@ -145,7 +142,7 @@ void apply(const InputParameters& parameters, SourceOptions& options) {
   const auto toNs = [](double ms) { return static_cast<urban_nav_core::StampNs>(std::llround(1e6 * ms)); };
   options.pairing = {toNs(parameters.right_delay), toNs(parameters.pairing_tolerance)};
   if (parameters.baseline_scale == 0.0)
-    throw urban_nav_core::UserError("input.baseline_scale", "0", "a factor that leaves a baseline");
+    throw urban_nav_core::UserError("input.baseline_scale", "0", "a factor other than 0");
   options.baseline_scale = parameters.baseline_scale;
   options.sessions = parameters.sessions == "apart"      ? SessionRule::Apart
                      : parameters.sessions == "together" ? SessionRule::Together

@@ -32,12 +32,12 @@ bool hasAlog(const std::string& folder) {
 }  // namespace
 
 InputKind inputKind(const std::string& path) {
-  if (!fs::exists(path)) throw UserError(path, "is not there", kKnownInputs);
+  if (!fs::exists(path)) throw UserError(path, "does not exist", kKnownInputs);
   if (!fs::is_directory(path)) {
     if (!fs::is_regular_file(path)) throw UserError(path, "is neither a file nor a folder", kKnownInputs);
     if (isRecording(path)) return InputKind::Bag;
     if (const auto foreign = recogniseForeignInput(path)) throw UserError(path, foreign->found, foreign->remedy);
-    throw UserError(path, "is no recording (neither a ROS 1 bag, nor MCAP, nor a .db3 of rosbag2)", kKnownInputs);
+    throw UserError(path, "is not a recording (ROS 1 bag, MCAP or .db3 of rosbag2)", kKnownInputs);
   }
   if (findKittiLayout(path) || findKittiSweeps(path)) return InputKind::KittiFolder;
   if (fs::is_directory(fs::path(path) / "mav0") || fs::is_directory(fs::path(path) / "cam0"))
@@ -45,7 +45,7 @@ InputKind inputKind(const std::string& path) {
   if (fs::is_directory(fs::path(path) / "StereoImages") || hasAlog(path)) return InputKind::NewCollegeFolder;
   if (isRecording(path)) return InputKind::Bag;
   if (const auto foreign = recogniseForeignInput(path)) throw UserError(path, foreign->found, foreign->remedy);
-  throw UserError(path, "holds nothing that is known", kKnownInputs);
+  throw UserError(path, "contains no known kind of input", kKnownInputs);
 }
 
 std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const SourceOptions& options,
@@ -53,14 +53,14 @@ std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const 
   const InputKind kind = inputKind(paths.front());
   if (kind != InputKind::Bag && !options.topics.empty())
     throw UserError("--topic " + options.topics.front(), "names a topic, but " + paths.front() + " is a folder",
-                    "for bags alone");
+                    "for bags only");
   switch (kind) {
     case InputKind::KittiFolder: return openKittiFolder(paths.front(), options);
     case InputKind::NewCollegeFolder: return openNewCollegeFolder(paths.front(), options);
     case InputKind::EurocFolder: return openEurocFolder(paths.front(), options);
     case InputKind::Bag: return openBags(paths, options, after, part);
   }
-  throw UserError(paths.front(), "holds nothing that is known", kKnownInputs);
+  throw UserError(paths.front(), "contains no known kind of input", kKnownInputs);
 }
 
 }  // namespace urban_nav_input

@@ -49,8 +49,8 @@ Finding toFinding(const std::string& topic, const PlanarPattern& pattern, const 
   Finding finding{FindingKind::Lasers,
                   topic + ": PointCloud2 whose points lie in one plane, " +
                       urban_nav_core::formatNumber(pattern.angle_step * 180.0 / M_PI, 3) +
-                      " deg from beam to beam: a planar laser; ",
-                  "nothing has to be done; live stages need sensor_msgs/LaserScan (pointcloud_to_laserscan makes it)"};
+                      " deg between beams: a planar laser; ",
+                  "no action needed; live stages need sensor_msgs/LaserScan (pointcloud_to_laserscan makes it)"};
   if (role) {
     finding.text += std::string("its clouds are read as scans of ") + toString(*role);
     if (pattern.time_field.empty()) finding.text += ", all beams of which have the stamp of their cloud";
@@ -58,7 +58,7 @@ Finding toFinding(const std::string& topic, const PlanarPattern& pattern, const 
   }
   finding.text += "it is not used, since laser_left and laser_right have topics";
   finding.remedy = "--topic laser_left:=" + topic +
-                   " takes it in place of the present one after "
+                   " selects it instead of the present one after "
                    "pointcloud_to_laserscan has made scans of it";
   return finding;
 }

@@ -82,7 +82,7 @@ std::vector<BagExtent> takeOnce(const std::vector<BagExtent>& bags, std::map<std
     }
     std::string& sentence = copies[same->path];
     sentence += (sentence.empty() ? "" : "; ") + bag.path + " holds the same messages as " + same->path +
-                ": given twice, and used once";
+                ": given twice, used once";
   }
   return kept;
 }

@@ -30,7 +30,7 @@ void note(const urban_nav_core::TumRepairs& repairs, bool is_stated, TrajectoryF
                          " lines left out: a number is missing or not finite (NaN), or the quaternion is zero");
   if (repairs.out_of_order > 0)
     file.notes.push_back(file.path + ": " + std::to_string(repairs.out_of_order) +
-                         " lines are earlier than the one before: sorted by stamp");
+                         " lines are out of order: sorted by stamp");
   if (repairs.unit < 1.0 && !is_stated)
     file.notes.push_back(file.path + ": its stamps are taken as " +
                          (repairs.unit < 2e-9   ? "ns"

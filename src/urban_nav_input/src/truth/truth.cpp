@@ -93,10 +93,10 @@ std::optional<TrajectoryFile> bagTruth(const InputSession& session, const Source
     else if (!trajectory.append(urban_nav_ros::toStampNs(message->header.stamp), *pose)) ++out_of_order;
   }
   const std::string where = session.paths.front() + ", topic " + topic->name;
-  if (trajectory.size() < 2) throw UserError(where, "holds no two poses", "");
+  if (trajectory.size() < 2) throw UserError(where, "has fewer than two poses", "");
   TrajectoryFile file = stamped(where, trajectory);
-  noteLeftOut(file, not_finite, "no rotation, or a number that is not finite");
-  noteLeftOut(file, out_of_order, "a stamp that is not later than the one before");
+  noteLeftOut(file, not_finite, "an invalid rotation, or a number that is not finite");
+  noteLeftOut(file, out_of_order, "a stamp that is not later than the previous one");
   return file;
 }
 

@@ -288,7 +288,7 @@ std::vector<Fault> imuFaults() {
           {"force in thousandths of g", onForce([](const Vector3d& a) { return Vector3d(1000.0 * a / 9.80665); }),
            "imu", "thousandths of g", "accelerometer_scale=0\\.0098"},
           {"no gravity", onForce([](const Vector3d& a) { return Vector3d(a.x(), a.y(), a.z() - 9.81); }), "imu",
-           "takes gravity off"},
+           "subtracts gravity"},
           {"wrong scale", onForce([](const Vector3d& a) { return Vector3d(0.7 * a); }), "imu", "wrong scale"},
           {"not finite for a while", onImu([](Imu& imu, double t) {
              if (t > 5.99 && t < 17.99) imu.linear_acceleration.x = kNoNumber;

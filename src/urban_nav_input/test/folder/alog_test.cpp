@@ -89,9 +89,10 @@ TEST_F(AlogFile, ALineLongerThanTheBufferIsWhole) {
 
 TEST_F(AlogFile, NamesFileAndLineOfWhatIsNoLog) {
   write("%% comment\nhello\n");
-  EXPECT_EQ(error(), ":2: no row of a MOOS log: allowed `time VARIABLE source value`, or comments that begin with %%");
+  EXPECT_EQ(error(),
+            ":2: not a row of a MOOS log: expected `time VARIABLE source value`, or comments that begin with %%");
   write("%% LOGSTART soon\n");
-  EXPECT_EQ(error(), ":1: LOGSTART without a time: allowed Unix seconds");
+  EXPECT_EQ(error(), ":1: LOGSTART without a time: expected Unix seconds");
   EXPECT_THROW(AlogReader("/nowhere/at/all.alog"), UserError);
 }
 
@@ -120,9 +121,9 @@ TEST(AlogFields, RefusesDamagedValues) {
     }
     return std::string();
   };
-  EXPECT_EQ(error([&] { (void)fields.number("a"); }), "log:7: a = 1.x: allowed a finite number");
+  EXPECT_EQ(error([&] { (void)fields.number("a"); }), "log:7: a = 1.x: expected a finite number");
   EXPECT_EQ(error([&] { (void)fields.number("z"); }), "log:7: no field `z`");
-  EXPECT_EQ(error([&] { (void)fields.array("b"); }), "log:7: b: 2 numbers in [3]: allowed [n]{v,v,...} or [rxc]{...}");
+  EXPECT_EQ(error([&] { (void)fields.array("b"); }), "log:7: b: 2 numbers in [3]: expected [n]{v,v,...} or [rxc]{...}");
   EXPECT_NE(error([&] { (void)fields.array("c"); }), "");
   EXPECT_NE(error([&] { (void)fields.array("d"); }), "");
   EXPECT_NE(error([&] { (void)fields.stamp("a"); }), "");

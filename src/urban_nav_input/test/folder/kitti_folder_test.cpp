@@ -151,7 +151,7 @@ TEST(KittiFolder, NamesFileAndLineOfWhatIsWrong) {
   EXPECT_NE(catchMessage(open).find("2 stamps"), std::string::npos) << catchMessage(open);
   std::filesystem::remove(folder.file("in/times.txt"));
   std::filesystem::create_directory(folder.file("in/times.txt"));
-  EXPECT_EQ(catchMessage(open), folder.file("in/times.txt") + ": is a folder: allowed a text file");
+  EXPECT_EQ(catchMessage(open), folder.file("in/times.txt") + ": is a folder: expected a text file");
   std::filesystem::remove(folder.file("in/times.txt"));
   writeFile(folder.file("in/calib.txt"), "P0: 1 0 0 0 0 1 0 0 0 0 1 0\nP1: 1 0 0 zero 0 1 0 0 0 0 1 0\n");
   EXPECT_NE(catchMessage(open).find("calib.txt:2"), std::string::npos) << catchMessage(open);
@@ -244,9 +244,9 @@ TEST(InputKind, TellsWhatItKnows) {
   const TemporaryFolder folder;
   writeFile(folder.file("text.bag"), "no bag");
   std::filesystem::create_directories(folder.file("empty"));
-  EXPECT_NE(catchMessage([&] { inputKind(folder.file("text.bag")); }).find("is no recording"), std::string::npos);
+  EXPECT_NE(catchMessage([&] { inputKind(folder.file("text.bag")); }).find("is not a recording"), std::string::npos);
   EXPECT_NE(catchMessage([&] { inputKind(folder.file("empty")); }).find("KITTI"), std::string::npos);
-  EXPECT_NE(catchMessage([&] { inputKind(folder.file("nowhere")); }).find("is not there"), std::string::npos);
+  EXPECT_NE(catchMessage([&] { inputKind(folder.file("nowhere")); }).find("does not exist"), std::string::npos);
 }
 
 }  // namespace

@@ -130,7 +130,7 @@ TEST_F(NewCollege, RowsOfOtherVariablesAreCounted) {
 
 TEST_F(NewCollege, DamageIsNamedWithItsLine) {
   const std::string whole = std::string(kStart) + kScan;
-  EXPECT_NE(error(whole.substr(0, whole.size() - 20)).find(":2: Reflectance: no whole array"), std::string::npos);
+  EXPECT_NE(error(whole.substr(0, whole.size() - 20)).find(":2: Reflectance: incomplete array"), std::string::npos);
   EXPECT_NE(error(whole.substr(0, whole.find(",Range"))).find(":2: no field `Range`"), std::string::npos);
   std::string text = whole;
   text.replace(text.find("maxAngle=46.00"), 14, "maxAngle=47.00");

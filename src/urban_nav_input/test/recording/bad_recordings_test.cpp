@@ -62,13 +62,13 @@ TEST(BadRecordings, FilesThatAreNoRecordingsAreNamedForWhatTheyAre) {
   const std::string pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 12880\n";
   for (const char* ending : {".bag", ".mcap", ".db3"}) {
     const std::string path = folder.file(std::string("a") + ending);
-    EXPECT_TRUE(contains(errorOf(path), "is not there")) << errorOf(path);
+    EXPECT_TRUE(contains(errorOf(path), "does not exist")) << errorOf(path);
     testing::writeFile(path, "");
     EXPECT_TRUE(contains(errorOf(path), "is empty")) << errorOf(path);
     testing::writeFile(path, pointer);
     EXPECT_TRUE(contains(errorOf(path), "git lfs pull")) << errorOf(path);
     testing::writeFile(path, "hello, this is text\n");
-    EXPECT_TRUE(contains(errorOf(path), "is not a recording: allowed a ROS 1 bag, MCAP")) << errorOf(path);
+    EXPECT_TRUE(contains(errorOf(path), "is not a recording: expected a ROS 1 bag, MCAP")) << errorOf(path);
     EXPECT_TRUE(contains(errorOf(path), path)) << errorOf(path);
   }
   fs::create_directory(folder.file("empty"));

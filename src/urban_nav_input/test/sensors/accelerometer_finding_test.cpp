@@ -46,7 +46,7 @@ TEST(AccelerometerFindings, WithoutARepairSayWhatToChange) {
   const std::vector<Finding> without_gravity = examine({0.1, 0.0, 0.05});
   ASSERT_EQ(without_gravity.size(), 1U);
   EXPECT_TRUE(without_gravity[0].options.empty());
-  EXPECT_NE(without_gravity[0].text.find("takes gravity off"), std::string::npos);
+  EXPECT_NE(without_gravity[0].text.find("subtracts gravity"), std::string::npos);
   EXPECT_FALSE(without_gravity[0].remedy.empty());
 }
 

@@ -266,7 +266,7 @@ TEST(BagSweeps, WithoutTransformAreAtBaseLinkOrNotUsed) {
   writeSweepBag(folder.file("a.bag"), recipe);
   const SweepReading alone = readSweepBag({folder.file("a.bag")});
   EXPECT_EQ(alone.sweeps.size(), static_cast<std::size_t>(kBagSweeps));
-  EXPECT_NE(alone.notes.find("no static tf from base_link to \"velodyne\": base_link is taken"), std::string::npos)
+  EXPECT_NE(alone.notes.find("no static tf from base_link to \"velodyne\": base_link is assumed"), std::string::npos)
       << alone.notes;
   recipe.has_images = true;
   writeSweepBag(folder.file("b.bag"), recipe);

@@ -56,7 +56,7 @@ TEST(ForeignInput, AnUnknownFileIsNotMisnamed) {
   const TemporaryFolder folder;
   writeBytes(folder.file("text"), "hello");
   EXPECT_FALSE(recogniseForeignInput(folder.file("text")));
-  EXPECT_NE(refusal(folder.file("text")).find("is no recording"), std::string::npos);
+  EXPECT_NE(refusal(folder.file("text")).find("is not a recording"), std::string::npos);
 }
 
 }  // namespace

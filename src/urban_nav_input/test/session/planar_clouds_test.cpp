@@ -153,7 +153,7 @@ TEST(PlanarClouds, GiveTheBeamsOfScans) {
     return std::count_if(clouds.findings.begin(), clouds.findings.end(),
                          [&](const Finding& finding) { return finding.text.find(text) != std::string::npos; });
   };
-  EXPECT_EQ(named("/sick_left/cloud: PointCloud2 whose points lie in one plane, 1.15 deg from beam to beam"), 1);
+  EXPECT_EQ(named("/sick_left/cloud: PointCloud2 whose points lie in one plane, 1.15 deg between beams"), 1);
   EXPECT_EQ(named("its clouds are read as scans of laser_right"), 1);
 }
 

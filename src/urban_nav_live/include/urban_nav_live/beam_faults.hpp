@@ -9,8 +9,8 @@
 
 namespace urban_nav_live {
 
-/// Counts beams of planar lasers whose range is not a number: the device failed to measure (REP 117). An infinite range
-/// does not count: nothing was in reach. Not thread-safe.
+/// Counts beams of planar lasers whose range is NaN, a failed measurement (REP 117). Infinite ranges are not counted:
+/// nothing was within range. Not thread-safe.
 class BeamFaults {
  public:
   void add(const urban_nav_core::PlanarScan& scan) {

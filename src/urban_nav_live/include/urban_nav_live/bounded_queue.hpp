@@ -16,8 +16,8 @@ class BoundedQueue {
  public:
   explicit BoundedQueue(std::size_t capacity = 1) : capacity_(capacity) {}
 
-  /// Appends an item. When the queue is full, the oldest item is dropped: fresh data matters more than stale data.
-  /// Ignored after close().
+  /// Appends an item. If the queue is full, drops the oldest item, since recent data matter more. No effect after
+  /// close().
   void push(Item item) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -32,8 +32,8 @@ class BoundedQueue {
     arrived_.notify_one();
   }
 
-  /// Returns all items, oldest first. Blocks until there is one, until wake() or close(), or for `timeout`; the result
-  /// is empty then.
+  /// Returns all items, oldest first. Blocks until there is one, until wake() or close(), or for `timeout`; then the
+  /// result is empty.
   std::deque<Item> takeAll(std::chrono::milliseconds timeout) {
     std::unique_lock<std::mutex> lock(mutex_);
     arrived_.wait_for(lock, timeout, [this] { return closed_ || woken_ || !items_.empty(); });
@@ -41,7 +41,7 @@ class BoundedQueue {
     return std::exchange(items_, {});
   }
 
-  /// Ends the present or the next wait of takeAll() without an item.
+  /// Ends the current or the next wait of takeAll() without an item.
   void wake() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -50,7 +50,7 @@ class BoundedQueue {
     arrived_.notify_one();
   }
 
-  /// Ends all waits. Items that are pushed later are ignored.
+  /// Ends all waits. Items pushed later are ignored.
   void close() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -59,7 +59,7 @@ class BoundedQueue {
     arrived_.notify_all();
   }
 
-  /// Sets the number of items that may wait. At least 1.
+  /// Sets the capacity, at least 1.
   void setCapacity(std::size_t capacity) {
     const std::lock_guard<std::mutex> lock(mutex_);
     capacity_ = capacity;
@@ -68,19 +68,19 @@ class BoundedQueue {
     const std::lock_guard<std::mutex> lock(mutex_);
     return closed_;
   }
-  /// Number of items pushed, those dropped included.
+  /// Returns the number of items pushed, including dropped ones.
   std::int64_t pushed() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return pushed_;
   }
-  /// Number of items dropped because the queue was full.
+  /// Returns the number of items dropped because the queue was full.
   std::int64_t dropped() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return dropped_;
   }
 
  private:
-  mutable std::mutex mutex_;  // guards everything below
+  mutable std::mutex mutex_;  // guards all members below
   std::condition_variable arrived_;
   std::deque<Item> items_;
   std::size_t capacity_;

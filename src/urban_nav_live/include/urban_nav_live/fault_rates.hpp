@@ -14,19 +14,19 @@
 
 namespace urban_nav_live {
 
-/// Shares of faults over the last ten seconds, of counters that only grow. Not thread-safe.
+/// Fault rates over the last ten seconds, from monotonic counters. Not thread-safe.
 class FaultRates {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::seconds kWindow{10};
-  static constexpr double kWarning = 0.01, kError = 0.2;  ///< shares above which it is one
+  static constexpr double kWarning = 0.01, kError = 0.2;  ///< shares above which a warning or an error is reported
 
   explicit FaultRates(std::function<Clock::time_point()> now = &Clock::now) : now_(std::move(now)) {}
 
-  /// Takes the present counts. To be called once a second or so. A counter that has become smaller begins again.
+  /// Adds the present counts; call about once a second. A counter that decreases is treated as restarted.
   void add(const std::vector<StageReport::FaultCount>& counts);
-  /// Returns the level of the largest share, and a sentence for each that is a warning or an error: "26 % of the pairs
-  /// were dropped in the last 10 s: lower the rate of the camera". Empty: nothing is wrong.
+  /// Returns the level of the largest share, and a message for each that is a warning or an error: "26 % of the pairs
+  /// were dropped in the last 10 s: lower the rate of the camera". Empty: no fault.
   std::pair<ReportLevel, std::string> summary() const;
 
  private:
@@ -36,10 +36,10 @@ class FaultRates {
   };
   struct Kind {
     std::string advice;
-    std::deque<Sample> samples;  // oldest first; the first is the newest from before the window
+    std::deque<Sample> samples;  // oldest first; the first is the newest before the window
   };
   const std::function<Clock::time_point()> now_;
-  std::map<std::string, Kind> kinds_;  // by what they count
+  std::map<std::string, Kind> kinds_;  // by FaultCount::what
 };
 
 }  // namespace urban_nav_live

@@ -12,11 +12,11 @@
 
 namespace urban_nav_live {
 
-/// Counts frames that are missing in a stream of steady rate, by the gaps between stamps: the period is the lower
-/// quartile of the last intervals, so that a third of the frames may be missing. Not thread-safe.
+/// Counts missing frames of a stream with a steady rate from the gaps between stamps. The period is the lower quartile
+/// of the last intervals, so that a third of the frames may be missing. Not thread-safe.
 class FrameGaps {
  public:
-  /// A stamp that is not later than the one before begins anew.
+  /// Adds a stamp. One that is not later than the previous one restarts the estimate.
   void add(urban_nav_core::StampNs stamp) {
     ++frames_;
     if (newest_ && stamp > *newest_) addInterval(static_cast<double>(stamp - *newest_));
@@ -49,8 +49,8 @@ class FrameGaps {
   }
 
   std::optional<urban_nav_core::StampNs> newest_;
-  std::array<double, kIntervals> intervals_{};  // ns, a ring
-  std::size_t count_ = 0;                       // of intervals
+  std::array<double, kIntervals> intervals_{};  // ns, ring buffer
+  std::size_t count_ = 0;                       // number of intervals
   std::int64_t frames_ = 0, missing_ = 0;
 };
 

@@ -6,12 +6,12 @@
 
 namespace urban_nav_live {
 
-/// Pause state of a stage, and counters of the messages that do not reach its worker. Thread-safe.
+/// Pause state of a stage, with counters of messages that do not reach its worker. Thread-safe.
 class InputGate {
  public:
   struct Counts {
     std::int64_t paused_dropped = 0;  ///< messages that arrived during a pause
-    std::int64_t received = 0;        ///< messages, those that did not pass included
+    std::int64_t received = 0;        ///< messages, including those dropped
     std::int64_t invalid = 0;         ///< messages that could not be converted: not finite, unknown enumerators, ...
   };
 
@@ -19,7 +19,7 @@ class InputGate {
   void resume() { paused_ = false; }
   bool isPaused() const { return paused_; }
 
-  /// Returns true if a message may pass; otherwise it is counted as dropped.
+  /// Returns true if a message may pass; otherwise counts it as dropped.
   bool pass() {
     countReceived();
     if (!paused_) return true;

@@ -15,24 +15,24 @@
 
 namespace urban_nav_live {
 
-/// Passes on the items of several streams round by round. A round ends when stamps jump back: a recording begins again,
-/// or a clock is set back. Each stream has a connection of its own, so that stamps of one jump back before those of
-/// another: items of the next round wait until the leading streams have arrived there, and items of the round before
-/// are then dropped. So one jump of the clock is one end of a session, whatever overtakes what. Not thread-safe.
+/// Delivers the items of several streams round by round. A round ends when stamps jump back: a recording restarts or a
+/// clock is set back. Streams have separate connections, so that one may jump back before another: items of the next
+/// round wait until the leading streams have arrived there, and later items of the previous round are dropped. One jump
+/// of the clock therefore ends exactly one session, in any order of arrival. Not thread-safe.
 template <typename Item>
 class RoundGate {
  public:
   using StampNs = urban_nav_core::StampNs;
   struct Options {
-    /// The next round begins when all of these that have come in this one have arrived there.
+    /// Streams that must arrive in the next round, if they had items in this one, before it begins.
     std::set<int> leading;
-    /// ... or when its items cover this time, ns: a leading stream is silent.
+    /// Alternative condition: items of the next round span this time, ns, because a leading stream is silent.
     StampNs patience = urban_nav_core::kMaxStepBack;
-    std::size_t capacity = 100'000;  ///< items that wait; beyond that the oldest is dropped
+    std::size_t capacity = 100'000;  ///< of waiting items; beyond it the oldest is dropped
   };
   struct Listener {
-    std::function<void(Item&)> item;        ///< of the present round
-    std::function<void()> next_round = {};  ///< the items that follow are of the next round
+    std::function<void(Item&)> item;        ///< item of the current round
+    std::function<void()> next_round = {};  ///< later items belong to the next round
   };
 
   RoundGate(Options options, Listener listener) : options_(std::move(options)), listener_(std::move(listener)) {}
@@ -52,12 +52,12 @@ class RoundGate {
     }
     if (isDue()) beginNext();
   }
-  /// Begins the next round if items of it wait.
+  /// Begins the next round if items of it are waiting.
   void flush() {
     while (!waiting_.empty()) beginNext();
   }
 
-  /// Returns the number of times that stamps have jumped back.
+  /// Returns the number of backward jumps.
   int round() const { return round_; }
   std::int64_t dropped() const { return dropped_; }
 
@@ -72,8 +72,8 @@ class RoundGate {
     Item item;
   };
 
-  /// Returns the round of an item. A stream that missed its own jump, as one with few items may, is in the newest round
-  /// as soon as its stamps are not ahead of that round.
+  /// Returns the round of an item. A stream that had no item across its own jump, as one with few items may, is
+  /// assigned to the newest round as soon as its stamps are not ahead of that round.
   int toRound(int stream, StampNs stamp) {
     const auto [found, is_new] = streams_.try_emplace(stream, Stream{newest_round_, stamp});
     Stream& known = found->second;
@@ -123,7 +123,7 @@ class RoundGate {
   const Listener listener_;
   std::map<int, Stream> streams_;
   int round_ = 0, newest_round_ = 0;
-  StampNs newest_ = 0;  // of the newest round
+  StampNs newest_ = 0;  // in the newest round
   std::deque<Waiting> waiting_;
   std::int64_t dropped_ = 0;
 };

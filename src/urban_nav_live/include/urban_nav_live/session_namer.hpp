@@ -12,13 +12,13 @@
 
 namespace urban_nav_live {
 
-/// Names the live sessions of one robot and decides which stored session is resumed. The odometry names by this rule,
-/// and all other stages follow it (OdometrySession); without announced sessions, each stage names
-/// by this rule alone. Stores of one robot merge only if the ids agree. Not thread-safe.
+/// Names the live sessions of a robot and decides which stored session is resumed. Odometry applies this rule, and all
+/// other stages follow it (OdometrySession); without announced sessions, each stage applies the rule itself. Stores of
+/// one robot merge only if the ids agree. Not thread-safe.
 ///
-/// A stored session with the same robot and recording is resumed if it begins at the same time (the recording is played
-/// again) or if its newest pose is at the start (odometry continues). Otherwise a new session begins. A recording that
-/// is played again within one process becomes "name (2)", "name (3)", ...
+/// A stored session with the same robot and recording is resumed if it begins at the same time (the recording is
+/// replayed) or if its newest pose is at the start (odometry continues). Otherwise a new session begins. A recording
+/// replayed within one process becomes "name (2)", "name (3)", ...
 class SessionNamer {
  public:
   using Session = urban_nav_store::Session;
@@ -28,19 +28,19 @@ class SessionNamer {
 
   struct Named {
     Session session;
-    bool resumed = false;    ///< it is one of the stored sessions
+    bool resumed = false;    ///< it is a stored session
     bool continues = false;  ///< resumed at its newest pose, not from its start
   };
 
   explicit SessionNamer(std::string robot) : robot_(std::move(robot)) {}
 
-  /// Returns the session that begins at `start`, not complete. `recording`: its name, may be empty. `stored`: sessions
-  /// that an earlier process left in the store.
+  /// Returns the session that begins at `start`, marked incomplete. `recording`: its name, may be empty. `stored`:
+  /// sessions in the store from earlier processes.
   Named begin(const std::string& recording, urban_nav_core::StampNs start, const std::vector<Session>& stored = {},
               const EndsAt& endsAt = {});
-  /// Returns the session that the odometry announces. It is resumed if it is one of the stored sessions.
+  /// Returns the session announced by odometry, resumed if it is one of the stored sessions.
   Named follow(const urban_nav_core::OdometrySession& announced, const std::vector<Session>& stored = {});
-  /// An id that no session that begins may have: used, or of a session that came by other means.
+  /// Reserves an id that new sessions must not have: in use, or of a session from another source.
   void reserve(const SessionId& id) { used_.insert(id); }
   bool isReserved(const SessionId& id) const { return used_.count(id) > 0; }
   /// Releases all ids.
@@ -51,7 +51,7 @@ class SessionNamer {
   std::set<SessionId> used_;
 };
 
-/// Returns what an odometry announces of the session that it has named.
+/// Returns the announcement of a session named by odometry.
 urban_nav_core::OdometrySessionPtr toOdometrySession(const urban_nav_store::Session& session);
 
 }  // namespace urban_nav_live

@@ -16,21 +16,21 @@ struct StageReport {
   struct Figure {
     std::string name, value;
   };
-  /// Faults among things of one kind, counted from the start of the stage (FaultRates).
+  /// Faults of one kind and the total number of items, counted since the start of the stage (FaultRates).
   struct FaultCount {
     std::string what;  ///< "pairs were dropped"
     std::int64_t faults = 0, total = 0;
-    std::string advice;  ///< what to do about it: "lower the rate of the camera"
+    std::string advice;  ///< remedy: "lower the rate of the camera"
   };
 
   urban_nav_core::Status status;
-  std::string reason_name = "None";  ///< of `status.reason`
-  /// Sentence that `/diagnostics` begins with; empty: the sentence of `status`, or its health.
+  std::string reason_name = "None";  ///< name of `status.reason`
+  /// First message in `/diagnostics`; empty: the sentence of `status`, or its health.
   std::string summary;
-  bool is_error = false;              ///< an error whatever the health, for example nothing can be stored
-  bool is_warning = false;            ///< a warning at least
-  std::vector<Figure> figures;        ///< in the order in which they are shown
-  std::vector<std::string> warnings;  ///< sentences, each a warning at least; they follow the summary
+  bool is_error = false;              ///< an error regardless of the health, for example if nothing can be stored
+  bool is_warning = false;            ///< at least a warning
+  std::vector<Figure> figures;        ///< in display order
+  std::vector<std::string> warnings;  ///< messages after the summary; each is at least a warning
   std::vector<FaultCount> fault_counts;
 
   /// Appends a warning, unless the sentence is empty.
@@ -47,13 +47,13 @@ struct StageReport {
   }
 };
 
-/// Level of a report as diagnostic_msgs/DiagnosticStatus counts it.
+/// Level of a report, with the values of diagnostic_msgs/DiagnosticStatus.
 enum class ReportLevel : unsigned char { Ok = 0, Warning = 1, Error = 2 };
 
 /// Returns the level of a health: OK and RECOVERED are fine, DEGRADED is a warning, LOST an error.
 ReportLevel reportLevel(urban_nav_core::Health health);
-/// Returns the level and the summary that an operator is shown. `paused`: nothing is wrong. `topic_fault`: what is
-/// wrong with the topics, appended to the summary with the level `topic_level`; empty: nothing.
+/// Returns level and summary for the operator. `paused`: the level is OK. `topic_fault`: fault of the topics, appended
+/// to the summary with the level `topic_level`; empty: none.
 std::pair<ReportLevel, std::string> summarise(const StageReport& report, bool paused, const std::string& topic_fault,
                                               ReportLevel topic_level = ReportLevel::Warning);
 

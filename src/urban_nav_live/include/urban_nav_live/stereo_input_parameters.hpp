@@ -10,8 +10,8 @@
 
 namespace urban_nav_live {
 
-/// What a nodelet needs to receive a stereo camera: base of the parameters of each one that does. Its rows are
-/// stereoInputRows(); their defaults are set with those of the derived struct.
+/// Parameters for receiving a stereo camera, base of those of each nodelet that does. The rows are stereoInputRows();
+/// their defaults are set with those of the derived struct.
 struct StereoInputParameters {
   std::string base_frame;
   std::string image_type;  // auto, raw, rectified
@@ -23,7 +23,7 @@ struct StereoInputParameters {
   double drain_s;         // s
 };
 
-/// Returns `own` rows followed by those of StereoInputParameters. `queue_size`: default, messages.
+/// Returns the rows `own` followed by those of StereoInputParameters. `queue_size`: default, messages.
 template <typename P>
 std::vector<urban_nav_core::Row<P>> withStereoInput(std::vector<urban_nav_core::Row<P>> own, int queue_size) {
   const std::vector<urban_nav_core::Row<P>> rows = {
@@ -43,8 +43,8 @@ std::vector<urban_nav_core::Row<P>> withStereoInput(std::vector<urban_nav_core::
        false,
        false,
        {"auto", "raw", "rectified"},
-       "Whether images are rectified here by camera_info (raw) or were before; auto: the rows of the first pairs "
-       "decide, and where they do not, rectified if the topic's name contains `rect`.",
+       "Whether images are raw, to be rectified by camera_info, or rectified; auto: determined from the rows of the "
+       "first pairs, else rectified if the topic name contains `rect`.",
        "image_proc",
        {"images"}},
       {"compressed",
@@ -63,7 +63,7 @@ std::vector<urban_nav_core::Row<P>> withStereoInput(std::vector<urban_nav_core::
        2,
        1000000,
        {},
-       "Inputs that may wait; beyond that the oldest is dropped and counted.",
+       "Largest number of waiting inputs; beyond it the oldest is dropped and counted.",
        "docs/architecture.md",
        {"queue"}},
       {"max_lateness",
@@ -73,8 +73,7 @@ std::vector<urban_nav_core::Row<P>> withStereoInput(std::vector<urban_nav_core::
        0.0,
        10.0,
        {},
-       "Time, by stamps, that an image waits for its partner and for motion inputs; it does not wait once all have "
-       "arrived.",
+       "Time, by stamps, that an image waits for its partner and for motion inputs.",
        "docs/conventions.md"},
       {"sync_tolerance",
        &P::sync_tolerance,
@@ -93,8 +92,8 @@ std::vector<urban_nav_core::Row<P>> withStereoInput(std::vector<urban_nav_core::
        0.0,
        3600.0,
        {},
-       "Time that the first images wait for the camera's pose on /tf_static; after it base_frame is taken to be at the "
-       "left camera, with a warning, until that pose arrives and a new session begins.",
+       "Time that the first images wait for the pose of the camera on /tf_static; then base_frame is assumed at the "
+       "left camera, with a warning, until the pose arrives and a new session begins.",
        "REP-103",
        {"tf_wait"}},
       {"drain_s",
@@ -104,8 +103,7 @@ std::vector<urban_nav_core::Row<P>> withStereoInput(std::vector<urban_nav_core::
        0.0,
        3600.0,
        {},
-       "Time after an interrupt within which what the stage still holds is published or decided; what is given up is "
-       "logged.",
+       "Time after an interrupt for the stage to process and publish pending inputs; dropped ones are logged.",
        "docs/architecture.md"}};
   own.insert(own.end(), rows.begin(), rows.end());
   return own;

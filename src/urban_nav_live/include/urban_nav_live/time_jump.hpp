@@ -16,9 +16,9 @@ class TimeJumpDetector {
  public:
   /// Returns true if `stamp` lies more than kMaxStepBack before the newest one.
   bool jumpsBack(urban_nav_core::StampNs stamp) const { return newest_ && urban_nav_core::jumpsBack(stamp, *newest_); }
-  /// Raises the newest stamp; an earlier one has no effect.
+  /// Raises the newest stamp; an earlier stamp has no effect.
   void advance(urban_nav_core::StampNs stamp) { newest_ = std::max(newest_.value_or(stamp), stamp); }
-  /// Returns jumpsBack(stamp). After a jump `stamp` is the newest one, otherwise advance(stamp) applies.
+  /// Returns jumpsBack(stamp). After a jump `stamp` becomes the newest one, otherwise advance(stamp) applies.
   bool add(urban_nav_core::StampNs stamp) {
     const bool jumps = jumpsBack(stamp);
     if (jumps) newest_.reset();

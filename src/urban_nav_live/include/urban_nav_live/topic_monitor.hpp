@@ -15,8 +15,8 @@
 
 namespace urban_nav_live {
 
-/// Arrivals on the topics of a stage, and sentences for those that are absent, silent or late. The clock is the
-/// machine's, so that a graph whose simulated time stands still is reported too. Thread-safe.
+/// Monitors the arrival of messages on a stage's topics and reports those that are missing, silent or late. Uses the
+/// machine's clock, so that a stopped simulated clock is reported too. Thread-safe.
 class TopicMonitor {
  public:
   using Clock = std::chrono::steady_clock;
@@ -25,27 +25,27 @@ class TopicMonitor {
 
   explicit TopicMonitor(Now now = &Clock::now) : now_(std::move(now)) {}
 
-  /// Monitors a topic by its full name. `timeout`: s without a message until the topic is silent; kNoTimeout: it need
-  /// only arrive once. `group`: a word by which faults are asked for.
+  /// Monitors a topic by its full name. `timeout`: s without a message after which the topic is silent; kNoTimeout: one
+  /// message is sufficient. `group`: key for fault().
   void expect(const std::string& topic, double timeout = kNoTimeout, const std::string& group = "");
-  /// Declares that messages of two topics come in pairs, as stereo images do.
+  /// Declares that messages of two topics are paired, as stereo images are.
   void expectPairs(const std::string& topic, const std::string& partner);
 
   /// Records a message. Ignored for topics that are not monitored.
   void received(const std::string& topic, urban_nav_core::StampNs stamp = 0);
-  /// States whether the newest pair lacked a partner. A lag is normal between two messages; in an incomplete pair it is
-  /// a fault.
+  /// Sets whether the newest pair lacked a partner. A lag is normal between two messages; in an incomplete pair it is a
+  /// fault.
   void setIncomplete(bool incomplete);
 
-  /// Returns what is wrong with the topics of a group; empty: nothing. Topics that have not arrived come first ("/a has
-  /// not come yet, /b has not come yet"), then a late partner ("/right lags /left by 40 ms"), then silent topics ("/a
-  /// has been silent for 12.0 s"); only the first kind of fault is returned.
+  /// Returns the fault of a group's topics; empty: none. Topics never received come first ("/a has not been received
+  /// yet, /b has not been received yet"), then a late partner ("/right lags /left by 40 ms"), then silent topics ("/a
+  /// has been silent for 12.0 s"); only faults of the first such kind are returned.
   std::string fault(const std::string& group = "") const;
-  /// Fault of the topics of a group with its level: an error once a topic has been silent for 2 s longer
-  /// than its timeout, a fifth of the last 10 s.
+  /// Fault of a group's topics with its level: an error once a topic has been silent for 2 s, a fifth of the last 10 s,
+  /// longer than its timeout.
   struct Fault {
     ReportLevel level = ReportLevel::Ok;
-    std::string sentence;  ///< empty: nothing
+    std::string sentence;  ///< empty: no fault
   };
   Fault worstFault(const std::string& group = "") const;
 
@@ -57,7 +57,7 @@ class TopicMonitor {
     Clock::time_point when{};
     urban_nav_core::StampNs stamp = 0;
   };
-  /// Since the newest message, s; infinite if there was none.
+  /// Returns the time since the newest message, s; infinite without one.
   double age(const Topic& topic) const;
   std::string lateness(const std::string& group) const;
 

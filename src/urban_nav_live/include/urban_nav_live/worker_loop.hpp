@@ -16,21 +16,21 @@
 
 namespace urban_nav_live {
 
-/// Worker thread of a live stage: takes all inputs that wait, handles each, idles, and waits for more. Thread-safe.
+/// Worker thread of a live stage: takes all waiting inputs, handles each, calls idle() and waits for more. Thread-safe.
 template <typename Input>
 class WorkerLoop {
  public:
-  /// Called in the worker's thread. All but `handle` may be empty.
+  /// Functions called in the worker's thread. All but `handle` may be empty.
   struct Steps {
     std::function<void()> begin;  ///< once, before the first input
     std::function<void(Input&)> handle;
-    /// After the inputs of each round, at least once per `period`. Returns true if there is more work: the next round
-    /// does not wait for inputs.
+    /// Called after the inputs of each round, at least once per `period`. Returns true if there is more work: the next
+    /// round then does not wait for inputs.
     std::function<bool()> idle;
     std::function<void()> end;  ///< once, after the last round
   };
 
-  /// `capacity`: number of inputs that may wait; beyond it the oldest is dropped. The thread begins with start().
+  /// `capacity`: largest number of waiting inputs; beyond it the oldest is dropped. start() starts the thread.
   explicit WorkerLoop(std::size_t capacity = 1, std::chrono::milliseconds period = std::chrono::milliseconds(100))
       : period_(period), queue_(capacity) {}
   /// Calls stop().
@@ -38,14 +38,13 @@ class WorkerLoop {
   WorkerLoop(const WorkerLoop&) = delete;
   WorkerLoop& operator=(const WorkerLoop&) = delete;
 
-  /// Starts the thread, with this name. Inputs that were pushed before are handled first. Requires that it has not been
-  /// called before.
+  /// Starts the thread, with this name; it handles inputs pushed before first. Must be called once.
   void start(const std::string& name, Steps steps) {
     steps_ = std::move(steps);
     thread_ = urban_nav_core::namedThread(name, [this] { run(); });
   }
-  /// Ends the thread after the input it is handling; inputs that still wait are dropped. Idempotent. Requires that the
-  /// caller is not the worker.
+  /// Ends the thread after the current input; waiting inputs are dropped. Idempotent. Requires that the caller is not
+  /// the worker.
   void stop() {
     queue_.close();
     if (thread_.joinable()) thread_.join();
@@ -56,14 +55,14 @@ class WorkerLoop {
   /// Starts the next round at once.
   void wake() { queue_.wake(); }
   bool isStopping() const { return queue_.isClosed(); }
-  /// Number of inputs and questions pushed, those dropped included.
+  /// Returns the number of inputs and questions pushed, including dropped ones.
   std::int64_t pushed() const { return queue_.pushed(); }
-  /// Number of inputs and questions dropped because the queue was full.
+  /// Returns the number of inputs and questions dropped because the queue was full.
   std::int64_t dropped() const { return queue_.dropped(); }
 
-  /// Evaluates `question` in the worker's thread, after all inputs that were pushed before. Blocks. Returns nullopt if
-  /// it was not answered within `timeout` (it may still be evaluated later) or was dropped. Throws what `question`
-  /// throws. Requires that the caller is not the worker.
+  /// Evaluates `question` in the worker's thread, after all inputs pushed before. Blocks. Returns nullopt if it was
+  /// dropped or not evaluated within `timeout` (it may still be evaluated later). Rethrows the exceptions of
+  /// `question`. Requires that the caller is not the worker.
   template <typename Question>
   auto ask(const Question& question, std::chrono::milliseconds timeout) -> std::optional<decltype(question())> {
     using Answer = decltype(question());
@@ -74,7 +73,7 @@ class WorkerLoop {
     try {
       return answer.get();
     } catch (const std::future_error&) {
-      return std::nullopt;  // dropped, and its promise with it
+      return std::nullopt;  // dropped together with its promise
     }
   }
 

@@ -20,9 +20,9 @@ const Table<NodeletParameters>& nodeletTable() {
           {"store", &P::store, "", "", false, false, {},
            "Absolute path of the session store that holds the map; it is opened for reading only.", "docs/files.md"},
           {"map_frame", &P::map_frame, "", frames::kMap, false, false, {},
-           "Frame of that map; its origin is the first pose of its first session.", "REP-105"},
+           "Frame of the map; its origin is the first pose of its first session.", "REP-105"},
           {"odom_frame", &P::odom_frame, "", frames::kOdom, false, false, {},
-           "Frame of the odometry, which map_frame is tied to.", "REP-105"},
+           "Frame of the odometry; the transform from map_frame to it is published.", "REP-105"},
           {"publish_tf", &P::publish_tf, "", true, false, true, {},
            "Whether to publish map_frame to odom_frame on /tf, with the stamp of each odometry message, as soon as the "
            "robot has been LOCALIZED.", "REP-105"},

@@ -8,11 +8,11 @@ namespace {
 
 TEST(LocalizationReport, TheMostSevereFaultComesFirst) {
   StageState state;
-  state.image_fault = "/stereo/left/image_raw has not come yet";
+  state.image_fault = "/stereo/left/image_raw has not been received yet";
   EXPECT_EQ(makeReport(state).reason_name, "NoImages");
   state.camera_fault = "other sizes";
   EXPECT_EQ(makeReport(state).reason_name, "NoCamera");
-  state.odometry_fault = "/vo/odometry has not come yet";
+  state.odometry_fault = "/vo/odometry has not been received yet";
   EXPECT_EQ(makeReport(state).reason_name, "NoOdometry");
   EXPECT_FALSE(makeReport(state).is_error);
   state.localiser.map_fault = "another camera";

@@ -29,7 +29,7 @@ def _word(value):
         return str(int(value))
     if isinstance(value, (float, np.floating)):
         return repr(float(value))
-    raise Error(f"{value!r}: allowed a text, a path or a number")
+    raise Error(f"{value!r}: expected a text, a path or a number")
 
 
 def _words(name, value):
@@ -116,7 +116,7 @@ def icp(source, target, **options):
             options["initial"] = os.path.join(folder, "initial.txt")
             rows = np.asarray(initial, dtype=float)
             if rows.shape != (4, 4):
-                raise Error(f"initial has the shape {rows.shape}: allowed 4 x 4")
+                raise Error(f"initial has the shape {rows.shape}: expected 4 x 4")
             Path(options["initial"]).write_text("\n".join(" ".join(repr(float(x)) for x in row) for row in rows) + "\n", encoding="utf-8")
         result = _with_json("icp", {"SOURCE": [clouds[0]], "TARGET": [clouds[1]]}, options)
     result["T_target_source"] = np.array(result["T_target_source"], dtype=float).reshape(4, 4)
@@ -152,7 +152,7 @@ def disparity(left, right, calibration, **options):
             if not isinstance(image, (str, os.PathLike)):
                 pixels = np.ascontiguousarray(image)
                 if pixels.ndim != 2 or pixels.dtype != np.uint8:
-                    raise Error(f"{name}: an array {pixels.shape} of {pixels.dtype}: allowed H x W of uint8, or a file")
+                    raise Error(f"{name}: an array {pixels.shape} of {pixels.dtype}: expected H x W of uint8, or a file")
                 image = os.path.join(folder, name + ".pgm")
                 Path(image).write_bytes(b"P5\n%d %d\n255\n" % (pixels.shape[1], pixels.shape[0]) + pixels.tobytes())
             images.append(_word(image))

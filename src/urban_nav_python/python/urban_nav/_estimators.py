@@ -74,10 +74,10 @@ class Relaxation:
         where = f"edge {a} to {b}"
         given = np.array(information, dtype=float)
         if given.shape != (6, 6) or not np.isfinite(given).all():
-            raise Error(f"{where}: information: allowed 6 x 6 finite numbers")
+            raise Error(f"{where}: information: expected 6 x 6 finite numbers")
         largest = np.abs(given).max()
         if not np.allclose(given, given.T, rtol=0, atol=1e-9 * largest) or np.linalg.eigvalsh((given + given.T) / 2)[0] < -1e-9 * largest:
-            raise Error(f"{where}: information is not symmetric and positive semidefinite: allowed the inverse of a covariance")
+            raise Error(f"{where}: information is not symmetric and positive semidefinite: expected the inverse of a covariance")
         self._relaxation.add_edge(int(a), int(b), _rigid(T_a_b, where), (given + given.T) / 2)
 
     def optimise(self):
@@ -101,7 +101,7 @@ def _camera(info, where):
         if numbers is None:
             numbers = getattr(info, name.lower(), None)
         if numbers is None:
-            raise Error(f"{where} has no member {name}: allowed a message sensor_msgs/CameraInfo")
+            raise Error(f"{where} has no member {name}: expected a message sensor_msgs/CameraInfo")
         values[name] = [float(x) for x in np.asarray(numbers, dtype=float).ravel()]
     return values
 
@@ -111,15 +111,15 @@ def _grey(image, where):
         return None
     pixels = np.asarray(image)
     if pixels.ndim != 2 or pixels.dtype != np.uint8:
-        raise Error(f"{where}: an array {pixels.shape} of {pixels.dtype}: allowed H x W of uint8")
+        raise Error(f"{where}: an array {pixels.shape} of {pixels.dtype}: expected H x W of uint8")
     return np.ascontiguousarray(pixels)
 
 
 def _rigid(T, where):
     T = np.array(T, dtype=float)
     if T.shape != (4, 4) or not np.isfinite(T).all():
-        raise Error(f"{where}: allowed 4 x 4 finite numbers")
+        raise Error(f"{where}: expected 4 x 4 finite numbers")
     R = T[:3, :3]
     if not np.allclose(R @ R.T, np.eye(3), atol=1e-6) or np.linalg.det(R) < 0 or not np.allclose(T[3], (0, 0, 0, 1)):
-        raise Error(f"{where}: a matrix that is no rigid transform: allowed a rotation and a translation, last row 0 0 0 1")
+        raise Error(f"{where}: a matrix that is not a rigid transform: expected a rotation and a translation, last row 0 0 0 1")
     return T

@@ -50,7 +50,7 @@ class _Image(Message):
         needed = (self.height - 1) * self.step + self.width * size * channels if self.height and self.width else 0
         if needed > self.data.size or self.height and self.step < self.width * size * channels:
             raise Error(f"image of {self.width}x{self.height} px, {self.encoding}: {self.data.size} bytes of data, step {self.step}: "
-                        f"allowed at least {needed} bytes", 1)
+                        f"expected at least {needed} bytes", 1)
         pixels = np.ndarray(shape, dtype, self.data, 0, strides)
         return pixels[:, :, 0] if channels == 1 else pixels
 
@@ -65,7 +65,7 @@ class _PointCloud(Message):
         for field in self.fields:
             number = _POINT_FIELDS.get(field.datatype)
             if number is None:
-                raise Error(f"point field {field.name}: datatype {field.datatype}: allowed 1...8", 1)
+                raise Error(f"point field {field.name}: datatype {field.datatype}: expected 1...8", 1)
             dtype = np.dtype((">" if self.is_bigendian else "<") + number)
             count = max(field.count, 1)
             if field.offset + dtype.itemsize * count > self.point_step:
@@ -79,7 +79,7 @@ class _PointCloud(Message):
             raise Error(f"fields of a point cloud: {error}", 1) from error
         needed = (self.height - 1) * self.row_step + self.width * self.point_step if self.height and self.width else 0
         if needed > self.data.size:
-            raise Error(f"point cloud of {self.width}x{self.height} points: {self.data.size} bytes of data: allowed at least {needed}", 1)
+            raise Error(f"point cloud of {self.width}x{self.height} points: {self.data.size} bytes of data: expected at least {needed}", 1)
         points = np.ndarray((self.height, self.width), point, self.data, 0, (self.row_step, self.point_step))
         return points[0] if self.height == 1 else points
 
@@ -96,7 +96,7 @@ def _pixel(encoding):
     match = re.fullmatch(r"(8U|8S|16U|16S|32S|32F|64F)C?(\d*)", encoding)
     if match and match.group(2) != "0":
         return _NUMBERS[match.group(1)], int(match.group(2) or 1)
-    raise Error(f"image encoding {encoding}: allowed {', '.join(_CHANNELS)}, bayer_..., and those of OpenCV such as 16UC1", 1)
+    raise Error(f"image encoding {encoding}: expected {', '.join(_CHANNELS)}, bayer_..., and those of OpenCV such as 16UC1", 1)
 
 
 def _value(kind, text):

@@ -77,7 +77,7 @@ class Recording:
         from ._error import Error
 
         if order not in ("file", "header"):
-            raise Error(f"order = {order}: allowed file, header")
+            raise Error(f"order = {order}: expected file, header")
         if isinstance(topics, str):
             topics = [topics]
         names = None if topics is None else list(topics)

@@ -73,7 +73,7 @@ class Store:
         if len(found) != 1:
             known = ", ".join(f"{each.id} ({each.name})" for each in self._sessions) or "none: it is empty"
             what = "has no session" if not found else f"has {len(found)} sessions"
-            raise Error(f"{self.path}: {what} {session}: allowed {known}")
+            raise Error(f"{self.path}: {what} {session}: expected {known}")
         return found
 
     def trajectory(self, session=None):
@@ -127,7 +127,7 @@ class Store:
         cloud = self.cloud(session)
         names = [name for name in ("label", "label_probability", "unsure") if name in cloud.dtype.names]
         if not names:
-            raise Error(f"{self.path}: the map is not labelled: allowed a map with the stage labels", 1)
+            raise Error(f"{self.path}: the map is not labelled: expected a map with the stage labels", 1)
         labels = np.empty(len(cloud), dtype=[(name, cloud.dtype[name]) for name in names])
         for name in names:
             labels[name] = cloud[name]

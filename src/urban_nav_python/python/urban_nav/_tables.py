@@ -36,7 +36,7 @@ def read_pfm(path):
     content = Path(path).read_bytes()
     kind, size, scale, pixels = content.split(b"\n", 3)
     if kind.strip() != b"Pf":
-        raise Error(f"{path}: a PFM file of another kind: allowed one channel", 1)
+        raise Error(f"{path}: a PFM file of another kind: expected one channel", 1)
     width, height = (int(word) for word in size.split())
     dtype = "<f4" if float(scale) < 0 else ">f4"
     return np.frombuffer(pixels, dtype, width * height).reshape(height, width)[::-1].astype(np.float32)
@@ -59,7 +59,7 @@ def read_ply(path):
             elif words[:1] == ["property"] and in_vertices:
                 fields.append((words[2], "<" + _PLY_NUMBERS[words[1]]))
         if "format binary_little_endian 1.0" not in lines or count is None:
-            raise Error(f"{path}: a PLY file of another kind: allowed binary_little_endian with vertices", 1)
+            raise Error(f"{path}: a PLY file of another kind: expected binary_little_endian with vertices", 1)
         return np.fromfile(file, np.dtype(fields), count)
 
 
@@ -67,7 +67,7 @@ def write_points(path, points, name):
     """Writes an array n x 3 (m) as a binary PLY file. Throws Error for another shape."""
     points = np.asarray(points)
     if points.ndim != 2 or points.shape[1] != 3 or points.dtype.kind not in "fiu":
-        raise Error(f"{name}: an array {points.shape} of {points.dtype}: allowed n x 3 numbers (m), or a file")
+        raise Error(f"{name}: an array {points.shape} of {points.dtype}: expected n x 3 numbers (m), or a file")
     header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n"
               "property double x\nproperty double y\nproperty double z\nend_header\n")
     Path(path).write_bytes(header.encode() + np.ascontiguousarray(points, dtype="<f8").tobytes())

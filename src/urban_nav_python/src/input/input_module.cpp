@@ -122,7 +122,7 @@ class MessageIterator {
       if (types.count(topic) != 0) continue;
       std::vector<std::string> names;
       for (const auto& [name, type] : types) names.push_back(name);
-      throw UserError("topics: " + topic, "is no topic of " + recording.path(), urban_nav_core::joined(names));
+      throw UserError("topics: " + topic, "is not a topic of " + recording.path(), urban_nav_core::joined(names));
     }
   }
 

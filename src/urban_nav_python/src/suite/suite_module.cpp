@@ -85,7 +85,7 @@ int run(const std::string& name, const urban_nav::NamedArguments& arguments, py:
     listener.rethrow();
     throw;
   } catch (const std::exception& error) {
-    failure = std::string("could not go on: ") + error.what();
+    failure = std::string("aborted: ") + error.what();
   }
   listener.rethrow();
   if (!failure.empty()) {

@@ -70,7 +70,7 @@ class Map(FolderCase):
         self.assertGreater(len(frames[-1].features), 50)
         self.assertNotEqual(odometry.add(stamp_after(frames[-1]), None, None).status, "OK")
         self.fails(2, "px", odometry.add, stamp_after(frames[-1], 2), np.zeros((9, 9), np.uint8), None)
-        self.fails(2, "allowed H x W of uint8", odometry.add, stamp_after(frames[-1], 2), np.zeros((9, 9)), None)
+        self.fails(2, "expected H x W of uint8", odometry.add, stamp_after(frames[-1], 2), np.zeros((9, 9)), None)
         self.fails(2, "window", urban_nav.Vo, infos["left"], infos["right"], window=0)
         self.fails(2, "left_info", urban_nav.Vo, infos["right"], infos["left"])
 
@@ -97,7 +97,7 @@ class Map(FolderCase):
         self.assertIn(str(caught.exception), text)
         self.fails(2, "no option colour", urban_nav.map, absent, self.folder / "x", colour=1)
         self.fails(2, "swf_vo.windw", urban_nav.map, absent, self.folder / "x", set={"swf_vo.windw": 3})
-        self.fails(2, "takes no value", urban_nav.map, absent, self.folder / "x", overwrite="yes")
+        self.fails(2, "no value: it is a switch", urban_nav.map, absent, self.folder / "x", overwrite="yes")
 
 
 def stamp_after(frame, steps=1):

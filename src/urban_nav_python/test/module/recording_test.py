@@ -133,7 +133,7 @@ class Recordings(FolderCase):
         self.assertEqual(len(stamps), 4)
         received = [s for _, s, _ in urban_nav.Recording(self.bag).messages(topics=["/imu"])]
         self.assertEqual(received, sorted(received))
-        self.fails(2, "allowed file, header", urban_nav.Recording(self.bag).messages, order="stamp")
+        self.fails(2, "expected file, header", urban_nav.Recording(self.bag).messages, order="stamp")
 
     def test_raw_messages_are_the_encoded_bytes(self):
         with rosbag.Bag(str(self.bag)) as bag:

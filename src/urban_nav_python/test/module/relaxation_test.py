@@ -77,7 +77,7 @@ class Graph(FolderCase):
         self.fails(2, "no edge", relaxation.optimise)
         relaxation.add_pose(3, np.eye(4))
         self.fails(2, "pose 3 was added before", relaxation.add_pose, 3, np.eye(4))
-        self.fails(2, "no rigid transform", relaxation.add_pose, 4, 2 * np.eye(4))
+        self.fails(2, "not a rigid transform", relaxation.add_pose, 4, 2 * np.eye(4))
         self.fails(2, "4 x 4", relaxation.add_pose, 4, np.eye(3))
         self.fails(2, "pose 4 does not exist", relaxation.add_edge, 3, 4, np.eye(4), np.eye(6))
         relaxation.add_pose(4, np.eye(4))

@@ -7,7 +7,7 @@ namespace urban_nav_ros {
 
 constexpr double kShortestBaseline = 0.01, kLongestBaseline = 3.0;  ///< m, of cameras on one vehicle
 
-/// Returns what is wrong with a baseline (m) that no vehicle has, with its remedy on a robot; empty where nothing is.
+/// Returns the fault of an implausible baseline (m), with its remedy on a robot; empty for a plausible one.
 std::string describeBaseline(double baseline);
 
 }  // namespace urban_nav_ros

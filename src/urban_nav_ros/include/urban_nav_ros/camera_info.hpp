@@ -7,9 +7,9 @@
 
 namespace urban_nav_ros {
 
-/// Field by field; nothing is checked here: urban_nav_core/camera/camera_info.hpp does.
+/// Converts field by field, without checks; see urban_nav_core/camera/camera_info.hpp.
 urban_nav_core::CameraInfo toCameraInfo(const sensor_msgs::CameraInfo& message);
-/// The header is the caller's business.
+/// Converts to a message. Sets no header.
 sensor_msgs::CameraInfo toCameraInfoMessage(const urban_nav_core::CameraInfo& info);
 
 }  // namespace urban_nav_ros

@@ -7,7 +7,7 @@
 
 namespace urban_nav_ros {
 
-/// Returns the view of a message, which outlives it. Promises nothing about the bytes (CloudPoints).
+/// Returns a view of a message, which must outlive it. The bytes are not validated; see CloudPoints.
 urban_nav_core::CloudView toCloudView(const sensor_msgs::PointCloud2& message);
 
 }  // namespace urban_nav_ros

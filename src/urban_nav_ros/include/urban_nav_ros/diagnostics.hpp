@@ -8,23 +8,23 @@
 
 namespace urban_nav_ros {
 
-/// The level of diagnostic_msgs/DiagnosticStatus at which a stage's health is reported.
+/// Returns the level of diagnostic_msgs/DiagnosticStatus for a stage's health.
 unsigned char toDiagnosticLevel(urban_nav_core::Health health);
 
-/// When a topic was received last, by the wall clock: detects a silent graph. Not thread-safe.
+/// Time of the last message on a topic, by the wall clock; detects missing publishers. Not thread-safe.
 class Arrival {
  public:
-  /// `name`: the topic's full name; empty: it is not listened to, and nothing is wrong with it.
+  /// `name`: full name of the topic; empty: the topic is not used, and no fault is reported.
   explicit Arrival(std::string name = "") : name_(std::move(name)) {}
 
   void happen();
   const std::string& name() const { return name_; }
   bool any() const { return any_; }
-  /// Since the last one, s; infinite where there was none.
+  /// Returns the time since the last message, s; infinite without one.
   double age() const;
-  /// "/a/topic has not come yet"; empty where it has, or need not.
+  /// Returns "/a/topic has not been received yet"; empty if it has been received or is not used.
   std::string absence() const;
-  /// "/a/topic has been silent for 12.0 s", where that is longer than this (s).
+  /// Returns "/a/topic has been silent for 12.0 s" if that is longer than `longest`, s; else empty.
   std::string silence(double longest) const;
 
  private:

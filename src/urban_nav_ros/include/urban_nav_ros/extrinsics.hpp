@@ -13,21 +13,21 @@
 
 namespace urban_nav_ros {
 
-/// Static transforms as they come on /tf_static, from the robot description or a bag: a forest of frames. The later of
-/// two transforms to the same child wins, unless the first was given by the user, and both are named in faults() if
-/// they differ. Names are taken without a leading slash (tf's of 2008 have one).
+/// Static transforms from /tf_static, a robot description or a bag: a forest of frames. The later of two transforms to
+/// the same child is used, unless the earlier one was set by the user; both are reported in faults() if they differ.
+/// Leading slashes of names are removed (tf of 2008 has them).
 class StaticTransforms {
  public:
-  /// Transforms that are no rigid motion are left out and named in faults(). Quaternions of another length than 1 are
-  /// normalised and named, unless their length is too far from 1 for a rotation.
+  /// Adds transforms. Transforms that are not rigid motions are ignored and reported in faults(). Quaternions whose
+  /// length differs from 1 are normalised and reported, or ignored if the length is too far from 1.
   void add(const tf2_msgs::TFMessage& message);
   void add(const geometry_msgs::TransformStamped& transform);
 
-  /// Adds a transform that takes precedence over all others to its child.
+  /// Sets a transform by the user, which takes precedence over all others to its child.
   void give(const geometry_msgs::TransformStamped& transform);
 
-  /// T_to_from: takes coordinates in `from` to coordinates in `to`. Empty where the tree does not connect them. A frame
-  /// is connected to itself.
+  /// Returns T_to_from, which takes coordinates in `from` to coordinates in `to`; empty if the tree does not connect
+  /// them. A frame is connected to itself.
   std::optional<urban_nav_core::Pose> lookup(const std::string& to, const std::string& from) const;
   bool has(const std::string& frame) const;
   /// Returns whether a transform to this child is known.
@@ -53,11 +53,12 @@ class StaticTransforms {
   std::vector<std::string> faults_;
 };
 
-/// A transform of a sensor's place for /tf_static; its stamp stays zero, static transforms hold always.
+/// Returns a sensor's mounting as a message for /tf_static. Its stamp is zero: static transforms are always valid.
 geometry_msgs::TransformStamped toStaticTransform(const std::string& parent, const std::string& child,
                                                   const urban_nav_core::Pose& T_parent_child);
 
-/// The axes of an optical frame (z forward, x right, y down) in a body frame (x forward, y left, z up), REP-103.
+/// Returns the axes of an optical frame (z forward, x right, y down) in a body frame (x forward, y left, z up),
+/// REP-103.
 urban_nav_core::Pose opticalInBody();
 
 }  // namespace urban_nav_ros

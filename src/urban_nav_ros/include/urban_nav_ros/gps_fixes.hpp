@@ -14,16 +14,16 @@
 
 namespace urban_nav_ros {
 
-/// Converts gps/fix to fixes with the place of the antenna, by the static tf of the frame in the first message. Earlier
-/// messages wait for the tf; where it has not come with the sixtieth, the antenna counts as being at the robot's
-/// origin, as offline, until the tf comes. Messages without a fix are ignored.
+/// Converts gps/fix to fixes with the position of the antenna, using the static tf of the frame in the first message.
+/// Earlier messages wait for the tf; if it is missing at the sixtieth message, the antenna is assumed at the robot's
+/// origin, as offline, until the tf is received. Messages without a fix are ignored.
 class GpsFixes {
  public:
   explicit GpsFixes(std::string base_frame) : base_frame_(std::move(base_frame)) {}
   /// Returns the fixes that can be converted now, in the order of arrival.
   std::vector<urban_nav_core::PositionFix> add(const sensor_msgs::NavSatFix& message);
   std::vector<urban_nav_core::PositionFix> add(const tf2_msgs::TFMessage& message);
-  /// Returns whether the place of the antenna is assumed. Thread-safe.
+  /// Returns whether the position of the antenna is assumed. Thread-safe.
   bool isAssumed() const { return is_assumed_; }
 
  private:

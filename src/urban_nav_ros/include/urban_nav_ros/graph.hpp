@@ -15,11 +15,12 @@ namespace urban_nav_ros {
 urban_nav_msgs::EdgeRef toEdgeRefMessage(const urban_nav_core::EdgeRef& edge);
 urban_nav_core::EdgeRef toEdgeRef(const urban_nav_msgs::EdgeRef& message);
 
-/// A run with a pose that is none, stamps that do not rise, or more of the one than of the other gives nothing.
+/// Converts a segment; empty for an invalid pose, stamps that do not increase, or different numbers of poses and
+/// stamps.
 urban_nav_msgs::TrajectorySegment toTrajectorySegmentMessage(const urban_nav_core::TrajectorySegment& run);
 std::optional<urban_nav_core::TrajectorySegment> toTrajectorySegment(const urban_nav_msgs::TrajectorySegment& message);
 
-/// `newest`: stamp of the newest pose in the graph. An update with a run that is none gives nothing.
+/// `newest`: stamp of the newest pose in the graph. Reading returns empty for an update with an invalid segment.
 urban_nav_msgs::GraphUpdate toGraphUpdateMessage(const urban_nav_core::GraphUpdate& update,
                                                  urban_nav_core::StampNs newest, const std::string& map_frame);
 std::optional<urban_nav_core::GraphUpdate> toGraphUpdate(const urban_nav_msgs::GraphUpdate& message);

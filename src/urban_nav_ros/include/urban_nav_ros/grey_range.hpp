@@ -12,34 +12,34 @@
 
 namespace urban_nav_ros {
 
-/// The map from 16-bit pixels to grey values of 8 bits: (pixel - offset) / step, rounded down, within 0...255.
+/// Map from 16-bit pixels to 8-bit grey values: (pixel - offset) / step, rounded down, within 0...255.
 struct GreyScale {
   double offset = 0.0;
   double step = 256.0;
 };
 
-/// Pixels that are kept as they are, up to 255: images whose values are numbers of classes.
+/// Identity for values up to 255: images whose pixels are class numbers.
 constexpr GreyScale kPixelsAsStored = {0.0, 1.0};
 
-/// The range of 16-bit grey values of a camera, or of several with equal brightness, from their first images: the one
-/// decision of every path (recordings, folders, single pairs, live nodes). Cameras put 10, 12 or 14 bits into 16, and
-/// thermal ones use a narrow range far from zero; single hot pixels do not count, since the range is that of the
-/// quantiles 0.1 % and 99.9 %. Where it covers 64 of the 256 grey levels that the significant bits give, the highest
-/// eight of those bits are kept, as an 8-bit camera would; otherwise the range is stretched. It settles after 40
-/// images; later ones reset it only if they are twice as bright as it can show. 8-bit images have no influence.
+/// Range of 16-bit grey values of a camera, or of several with equal brightness, determined from the first images, for
+/// all inputs (recordings, folders, single pairs, live nodes). Cameras store 10, 12 or 14 bits in 16, and thermal ones
+/// use a narrow range far from zero. The range is that of the quantiles 0.1 % and 99.9 %, which excludes hot pixels. If
+/// it covers at least 64 of the 256 grey levels of the significant bits, the highest eight of those bits are used, as
+/// in an 8-bit camera; otherwise the range is stretched. It is fixed after 40 images; later images reset it only if
+/// they are twice as bright as its upper end. 8-bit images have no effect.
 class GreyRange {
  public:
-  /// Takes an image into account, of any kind that toDeepGrey() reads; damaged ones are passed over.
+  /// Adds an image of any encoding that toDeepGrey() reads; damaged ones are skipped.
   void add(const sensor_msgs::Image& message);
   void add(const sensor_msgs::CompressedImage& message);
-  /// `grey`: of toDeepGrey().
+  /// `grey`: result of toDeepGrey().
   void add(const cv::Mat& grey);
-  /// Ends the collection: what follows are the images themselves.
+  /// Fixes the range before the first image is converted.
   void settle() { is_settled_ = true; }
   bool isSettled() const { return is_settled_; }
   const GreyScale& scale() const { return scale_; }
 
-  /// The scale and whether it is settled; a range that is read is settled.
+  /// Reads or writes the scale and whether it is fixed; a range that was read is fixed.
   void archive(urban_nav_core::Archive& archive);
 
  private:

@@ -15,16 +15,16 @@
 
 namespace urban_nav_ros {
 
-/// Converts stereo/ground_plane to normals in the axes of the robot, by the static tf of the frame in the first
-/// message. Earlier messages wait a second for the tf; without one, base_frame is at the camera, as elsewhere, until
-/// the tf comes. Messages without a plane and messages that are not finite are ignored.
+/// Converts stereo/ground_plane to normals in base_link axes, using the static tf of the frame in the first message.
+/// Earlier messages wait one second for the tf; without it, base_frame is assumed at the camera, as in other
+/// converters, until the tf is received. Messages without a plane and messages that are not finite are ignored.
 class GroundNormals {
  public:
   explicit GroundNormals(std::string base_frame) : base_frame_(std::move(base_frame)) {}
   /// Returns the normals that can be converted now, in the order of arrival.
   std::vector<urban_nav_core::GroundNormal> add(const urban_nav_msgs::GroundPlane& message);
   std::vector<urban_nav_core::GroundNormal> add(const tf2_msgs::TFMessage& message);
-  /// Returns whether the place of the camera is assumed. Thread-safe.
+  /// Returns whether the mounting of the camera is assumed. Thread-safe.
   bool isAssumed() const { return is_assumed_; }
 
  private:

@@ -9,7 +9,7 @@
 
 namespace urban_nav_ros {
 
-/// Corners all over an image, to a fraction of a pixel, with ORB descriptors (Rublee et al. 2011).
+/// Corners at subpixel positions, distributed over the image, with ORB descriptors (Rublee et al. 2011).
 struct ImageFeatures {
   std::vector<cv::KeyPoint> points;
   cv::Mat descriptors;
@@ -18,8 +18,8 @@ struct ImageFeatures {
 /// Returns at most 1000 features. Deterministic.
 ImageFeatures extractFeatures(const urban_nav_core::ImageView& image);
 
-/// Returns the mutually nearest features whose descriptors differ by at most 40 bits, wherever they lie: nothing is
-/// assumed about rows or disparities.
+/// Returns mutual nearest neighbours whose descriptors differ by at most 40 bits, anywhere in the images: no constraint
+/// on rows or disparities.
 std::vector<cv::DMatch> matchFeatures(const ImageFeatures& left, const ImageFeatures& right);
 
 }  // namespace urban_nav_ros

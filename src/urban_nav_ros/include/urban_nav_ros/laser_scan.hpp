@@ -10,22 +10,21 @@
 
 namespace urban_nav_ros {
 
-/// A turn of a planar laser, field by field, in the laser's own `frame`. header.seq is the caller's business.
+/// Converts a scan of a planar laser in the laser's own `frame`. Does not set header.seq.
 sensor_msgs::LaserScan toLaserScanMessage(const urban_nav_core::PlanarScan& scan, const std::string& frame);
 
-/// Returns the scan of a message; nullopt where the beams cannot be placed: without a stamp, with numbers in other
-/// units (checkUnits()), or with angles of which less than two are known. One of angle_min, angle_max and
-/// angle_increment follows from the others where it is not finite (an increment also where it is zero), and
-/// time_increment from scan_time. Intensities that are not as many as the ranges are left out. Limits of the ranges
-/// that are not finite, or an upper one that is not above the lower one, are no limits; a time of the turn that is not
-/// finite is unknown, 0. Scales of `convention` apply to those numbers that are in its units: limits in metres with
-/// ranges in millimetres, and one angle in radians with others in degrees, stay as they are.
+/// Returns the scan of a message; nullopt without a stamp, with other units (checkUnits()), or if fewer than two of the
+/// angles are known. One of angle_min, angle_max and angle_increment is derived from the others if it is not finite (an
+/// increment also if it is zero), and time_increment from scan_time. Intensities are dropped unless there is one per
+/// range. Range limits that are not finite, or whose order is reversed, are ignored; a scan_time that is not finite
+/// becomes 0 (unknown). Scales of `convention` apply only to numbers in its units: limits in metres with ranges in
+/// millimetres, and one angle in radians with others in degrees, are not scaled.
 std::optional<urban_nav_core::PlanarScan> toPlanarScan(const sensor_msgs::LaserScan& message,
                                                        const urban_nav_core::LaserConvention& convention = {});
-/// Returns what is wrong with the units of a message.
+/// Returns the fault of the units of a message.
 urban_nav_core::ScanVerdict checkUnits(const sensor_msgs::LaserScan& message,
                                        const urban_nav_core::LaserConvention& convention = {});
-/// Returns whether the upper limit of the ranges leaves none of them.
+/// Returns whether the upper range limit excludes all ranges.
 bool hasNoRangeLimit(const sensor_msgs::LaserScan& message);
 
 }  // namespace urban_nav_ros

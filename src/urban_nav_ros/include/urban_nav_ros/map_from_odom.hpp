@@ -13,15 +13,15 @@
 
 namespace urban_nav_ros {
 
-/// map -> odom on /tf, by whichever stage says where the map is. Thread-safe.
+/// Publishes map -> odom on /tf for the stage that estimates it. Thread-safe.
 class MapFromOdom {
  public:
   MapFromOdom(std::string map_frame, std::string odom_frame);
 
-  /// From now on it is this; empty: not known.
+  /// Sets the transform; empty: unknown.
   void set(const std::optional<urban_nav_core::Pose>& T_map_odom);
-  /// Publishes it with the stamp of an odometry message, so that every odom -> base_link has its map -> odom; where it
-  /// is not known yet, as soon as it is.
+  /// Publishes the transform with the stamp of an odometry message, so that every odom -> base_link has a matching map
+  /// -> odom. While it is unknown, stamps are kept and published once it is set.
   void send(urban_nav_core::StampNs stamp);
 
  private:
@@ -29,7 +29,7 @@ class MapFromOdom {
 
   const std::string map_frame_, odom_frame_;
   tf2_ros::TransformBroadcaster broadcaster_;
-  std::mutex mutex_;  // guards the broadcaster and what follows
+  std::mutex mutex_;  // guards the broadcaster and all members below
   std::vector<urban_nav_core::StampNs> unsent_;
   std::optional<urban_nav_core::Pose> T_map_odom_;
 };

@@ -12,7 +12,7 @@
 
 namespace urban_nav_ros {
 
-/// Colour of a marker, each part 0...1.
+/// Returns the colour of a marker; components 0...1.
 std_msgs::ColorRGBA toColour(double r, double g, double b, double a = 1.0);
 
 /// Builds a marker array that replaces all earlier markers of its topic. Points are in the frame of the array, m;
@@ -21,13 +21,13 @@ class MarkerBuilder {
  public:
   MarkerBuilder(const std::string& frame, urban_nav_core::StampNs stamp);
 
-  /// Adds separate lines: pairs of points. Nothing is added without points. `width`: m.
+  /// Adds separate lines from pairs of points, if there are any. `width`: m.
   void addLines(const std::string& name, const std::vector<Eigen::Vector3d>& points, double width,
                 const std_msgs::ColorRGBA& colour);
-  /// Adds a connected line. Nothing is added for less than two points.
+  /// Adds a connected line, if there are two or more points.
   void addStrip(const std::string& name, std::int32_t id, const std::vector<Eigen::Vector3d>& points, double width,
                 const std_msgs::ColorRGBA& colour);
-  /// Adds spheres. Nothing is added without points. `diameter`: m.
+  /// Adds spheres, if there are points. `diameter`: m.
   void addSpheres(const std::string& name, const std::vector<Eigen::Vector3d>& points, double diameter,
                   const std_msgs::ColorRGBA& colour);
   /// Adds a text that faces the viewer, centred at `point`. `height`: of a capital letter, m.

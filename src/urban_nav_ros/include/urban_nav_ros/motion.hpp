@@ -12,13 +12,13 @@
 
 namespace urban_nav_ros {
 
-/// Wheel odometry as a motion input: from message to message, how base_link moved on the ground. Observed are forward,
-/// sideways and heading; height, roll and pitch have zero information, whatever the message says of them. A message
-/// that is not later than the one before, or whose pose is none, gives nothing.
+/// Wheel odometry as a motion input: planar motion of base_link between consecutive messages. Forward, lateral and
+/// heading components are observed; height, roll and pitch have zero information, independently of the message. Returns
+/// nothing for a message that is not later than the previous one or has an invalid pose.
 class WheelMotion {
  public:
-  /// Standard deviation of an increment: `noise` times the distance (m) or the angle (rad), and 1 mm and 1 mrad
-  /// beneath.
+  /// `noise`: standard deviation of an increment relative to its distance (m) or angle (rad), in addition to 1 mm and 1
+  /// mrad.
   explicit WheelMotion(double noise) : noise_(noise) {}
   std::optional<urban_nav_core::MotionInput> add(const nav_msgs::Odometry& message);
   void archive(urban_nav_core::Archive& archive) { archive(last_); }
@@ -33,13 +33,13 @@ class WheelMotion {
   std::optional<Last> last_;
 };
 
-/// A gyroscope as a motion input: the rotation of base_link from message to message, at the mean of the two rates.
-/// Translation has zero information. A message that is not later than the one before, or has no finite rates, gives
-/// nothing.
+/// Gyroscope as a motion input: rotation of base_link between consecutive messages, at the mean of the two rates.
+/// Translation has zero information. Returns nothing for a message that is not later than the previous one or whose
+/// rates are not finite.
 class GyroMotion {
  public:
-  /// `noise`: standard deviation of one rate, its bias apart, rad/s; 0: as the messages' covariances state, and no
-  /// information where they state none. `R_base_imu`: rotation of the device in base_link.
+  /// `noise`: standard deviation of one rate without its bias, rad/s; 0: that of the messages' covariances, and no
+  /// information if they state none. `R_base_imu`: rotation of the device in base_link.
   GyroMotion(double noise, const urban_nav_core::Matrix3d& R_base_imu) : noise_(noise), R_base_imu_(R_base_imu) {}
   std::optional<urban_nav_core::MotionInput> add(const sensor_msgs::Imu& message);
   void archive(urban_nav_core::Archive& archive) { archive(last_); }

@@ -10,23 +10,23 @@
 
 namespace urban_nav_ros {
 
-/// Ends the stages of a process in order when it is interrupted (SIGINT, as by Ctrl-C and roslaunch): sources first, so
-/// that later stages in the same process receive what a window still held, and ROS after the last. Without it
-/// roscpp closes all topics at once. Thread-safe.
+/// Ends the stages of a process in order when it is interrupted (SIGINT, by Ctrl-C or roslaunch): sources first, so
+/// that later stages in the same process receive the content of a source's window, and ROS last. Without it roscpp
+/// closes all topics at once. Thread-safe.
 class OrderlyEnd {
  public:
   using Finish = std::function<void()>;
 
-  /// Returns the one of this process, which handles SIGINT from its first stage on.
+  /// Returns the instance of this process, which handles SIGINT once a stage is added.
   static OrderlyEnd& ofProcess();
   ~OrderlyEnd();
   OrderlyEnd(const OrderlyEnd&) = delete;
   OrderlyEnd& operator=(const OrderlyEnd&) = delete;
 
-  /// Adds a stage. `order`: stages with a smaller one end first. `finish` is called once, in a thread of its own, and
-  /// must return in bounded time. Returns its number.
+  /// Adds a stage. `order`: stages with smaller values end first. `finish` is called once, in a separate thread, and
+  /// must return in bounded time. Returns the stage's number.
   int add(int order, Finish finish);
-  /// Removes a stage. Blocks while it is being finished, and once the process is interrupted until all are.
+  /// Removes a stage. Blocks while it is being finished and, after an interrupt, until all stages are.
   void remove(int number);
 
  private:
@@ -34,7 +34,7 @@ class OrderlyEnd {
   void watch();
   void finishAll();
 
-  std::mutex mutex_;                                   // guards stages_ and next_; held while a stage is finished
+  std::mutex mutex_;                                   // guards stages_ and next_; locked while a stage is finished
   std::multimap<std::pair<int, int>, Finish> stages_;  // by order and number
   int next_ = 0;
   std::atomic<bool> ends_{false}, finished_{false};

@@ -16,8 +16,8 @@
 
 namespace urban_nav_ros {
 
-/// All parameters in the name space of the handle, a nodelet's private one as a rule, for
-/// urban_nav_core::serverParameters. Throws UserError for one that is neither bool, number nor text, naming it.
+/// Returns all parameters in the namespace of the handle, usually a nodelet's private one, for
+/// urban_nav_core::serverParameters. Throws UserError naming the parameter that is neither bool, number nor text.
 std::map<std::string, urban_nav_core::ParameterValue> serverValues(const ros::NodeHandle& nh);
 
 namespace detail {
@@ -31,7 +31,7 @@ bool hasRow(const urban_nav_core::Table<Parameters>& table, const std::string& n
 template <typename Parameters>
 Parameters loadAssignments(const urban_nav_core::Table<Parameters>& table,
                            std::vector<urban_nav_core::Assignment> assignments) {
-  // Default files set all present names, so that an old one, which was set on purpose, has to come after them.
+  // Default files set all present names; old names were set by the user and must be applied after them.
   std::stable_partition(assignments.begin(), assignments.end(), [&table](const auto& assignment) {
     return std::any_of(table.rows().begin(), table.rows().end(),
                        [&](const auto& row) { return row.name == assignment.name; });
@@ -43,9 +43,8 @@ Parameters loadAssignments(const urban_nav_core::Table<Parameters>& table,
 
 }  // namespace detail
 
-/// Returns the parameters of `table` from values of the parameter server in the namespace `where`. Warns on the console
-/// of old names, which override present ones. Throws UserError, naming the parameter, for one that the table does not
-/// have and for a value that is not allowed.
+/// Returns the parameters of `table` from the parameter server in the namespace `where`. Logs a warning for old names,
+/// which override present ones. Throws UserError naming a parameter that is not in the table or whose value is invalid.
 template <typename Parameters>
 Parameters toParameters(const urban_nav_core::Table<Parameters>& table,
                         const std::map<std::string, urban_nav_core::ParameterValue>& values, const std::string& where) {
@@ -73,8 +72,8 @@ std::pair<Own, Stage> readParameters(const ros::NodeHandle& private_nh, const ur
   return {toParameters(own, of_own, where), toParameters(stage, of_stage, where)};
 }
 
-/// Returns the parameters of readParameters() and those of a table that several stages share: these are read from the
-/// namespace of their stage beside the nodelet, and from the private namespace, which takes precedence. Warns and
+/// Returns the parameters of readParameters() and those of a table shared by several stages, which are read from the
+/// namespace of their stage beside the nodelet and from the private namespace; the latter takes precedence. Warns and
 /// throws like toParameters().
 template <typename Own, typename Stage, typename Shared>
 std::tuple<Own, Stage, Shared> readParameters(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh,

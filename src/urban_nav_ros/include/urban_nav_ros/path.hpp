@@ -10,13 +10,13 @@
 
 namespace urban_nav_ros {
 
-/// What of a long run is drawn: its first pose, those at least `spacing` m from the last one drawn, and its last.
+/// Returns a segment for display: its first pose, poses at least `spacing` m from the previous one kept, and its last.
 urban_nav_core::TrajectorySegment thinned(const urban_nav_core::TrajectorySegment& run, double spacing);
 
 nav_msgs::Path toPathMessage(const urban_nav_core::TrajectorySegment& run, const std::string& map_frame);
 
-/// Appends a pose to a growing path for display. Returns false for a pose closer than `spacing` (m) to the last one,
-/// which is left out. At `max_points` the oldest tenth is removed.
+/// Appends a pose to a path for display. Returns false, without effect, for a pose closer than `spacing` (m) to the
+/// last one. At `max_points` the oldest tenth is removed.
 bool appendToPath(urban_nav_core::StampNs stamp, const urban_nav_core::Pose& pose, double spacing,
                   std::size_t max_points, nav_msgs::Path& path);
 

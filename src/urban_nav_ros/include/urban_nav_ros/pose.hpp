@@ -18,29 +18,29 @@
 
 namespace urban_nav_ros {
 
-/// Messages come from anywhere: a pose that is not finite or whose quaternion is not one (to 1 %) gives nothing.
+/// Converts a pose; empty if it is not finite or its quaternion is not of unit length (to 1 %).
 std::optional<urban_nav_core::Pose> toPose(const geometry_msgs::Pose& message);
 std::optional<urban_nav_core::Pose> toPose(const geometry_msgs::Transform& message);
 
 geometry_msgs::Pose toPoseMessage(const urban_nav_core::Pose& pose);
 geometry_msgs::Transform toTransformMessage(const urban_nav_core::Pose& pose);
 
-/// Row-major 6x6, translation first: the order of ROS and of the core are the same.
+/// Converts a row-major 6x6 matrix, translation first: ROS and the core use the same order.
 urban_nav_core::Matrix6d toMatrix6(const boost::array<double, 36>& values);
 boost::array<double, 36> toArray36(const urban_nav_core::Matrix6d& matrix);
 
-/// Pose of child_frame in frame_id with its covariance (in frame_id, DESIGN section 4). The twist is left at zero:
-/// setTwist.
+/// Converts a pose of child_frame in frame_id with its covariance (in frame_id, DESIGN section 4). The twist is zero;
+/// see setTwist().
 nav_msgs::Odometry toOdometryMessage(urban_nav_core::StampNs stamp,
                                      const urban_nav_core::PoseWithCovariance& T_frame_child, const std::string& frame,
                                      const std::string& child);
 
-/// Velocity of child_frame in its own axes (m/s, rad/s), as nav_msgs/Odometry wants it.
+/// Sets the velocity of child_frame in its own axes (m/s, rad/s), as defined by nav_msgs/Odometry.
 void setTwist(const urban_nav_core::Vector6d& twist, const urban_nav_core::Matrix6d& covariance,
               nav_msgs::Odometry& message);
 
 urban_nav_msgs::OdometrySession toOdometrySessionMessage(const urban_nav_core::OdometrySession& session);
-/// Returns null where the id cannot be one.
+/// Converts a session; null if the id is invalid.
 urban_nav_core::OdometrySessionPtr toOdometrySession(const urban_nav_msgs::OdometrySession& message);
 
 urban_nav_msgs::RelativePose toRelativePoseMessage(const urban_nav_core::SessionStep& relative,

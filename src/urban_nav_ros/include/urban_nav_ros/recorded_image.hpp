@@ -15,14 +15,14 @@
 
 namespace urban_nav_ros {
 
-/// Colour pixels (CV_8UC3, BGR), or none and a sentence that states why.
+/// Colour pixels (CV_8UC3, BGR), or none and the reason.
 struct ColourImage {
   cv::Mat pixels;
   std::string fault;
 };
 
-/// Image as it was recorded or received, decoded on demand. Copies share the message, which is never changed. Const
-/// functions are thread-safe.
+/// Image as recorded or received, decoded on demand. Copies share the message, which is immutable. Const functions are
+/// thread-safe.
 class RecordedImage {
  public:
   RecordedImage() = default;
@@ -31,22 +31,22 @@ class RecordedImage {
 
   /// Returns true if there is no message.
   bool empty() const { return !raw_ && !compressed_; }
-  /// Returns stamp (ns) and frame of the header; 0 and "" if it is empty.
+  /// Return stamp (ns) and frame of the header; 0 and "" if there is no message.
   urban_nav_core::StampNs stamp() const;
   std::string frame() const;
 
-  /// Takes the image into account in a range of 16-bit pixels; nothing for other images.
+  /// Adds the image to a range of 16-bit pixels; no effect for other images.
   void addTo(GreyRange& range) const;
-  /// Sets the scale of 16-bit pixels, one for all images that are compared; without it each image has its own.
+  /// Sets the scale of 16-bit pixels, common to all compared images; without it each image has its own.
   void setScale(const GreyScale& scale) { scale_ = scale; }
 
-  /// Decodes to grey. The pixels do not depend on the life of this object.
+  /// Decodes to grey. The pixels remain valid after this object is destroyed.
   GreyImage grey() const;
   /// Decodes to colour; grey images have three equal channels.
   ColourImage colour() const;
 
-  /// Returns the image as a JPEG: its own bytes if it is one, otherwise with colour and a quality of 92. Empty if it
-  /// does not decode.
+  /// Returns the image as JPEG: the original bytes if it is one, otherwise encoded in colour with quality 92. Empty if
+  /// it cannot be decoded.
   std::string jpeg() const;
 
   void archive(urban_nav_core::Archive& archive);

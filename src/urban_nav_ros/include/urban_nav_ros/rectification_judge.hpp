@@ -11,21 +11,21 @@
 
 namespace urban_nav_ros {
 
-/// Whether the images of a live stereo camera are rectified already: what their name says, unless the first pairs
-/// clearly show otherwise. One calibration; reset() begins the next. Used by one thread.
+/// Determines whether the images of a live stereo camera are rectified: by the topic's name, unless the first pairs
+/// clearly contradict it. For one calibration; reset() starts the next. Used by one thread.
 class RectificationJudge {
  public:
-  /// `as_named`: what the topic's name says. `by_images`: pairs are looked at; else `as_named` is the answer.
+  /// `as_named`: according to the topic's name. `by_images`: evaluate pairs; otherwise `as_named` is returned.
   /// `sync_tolerance`: s, between the stamps of a pair.
   RectificationJudge(bool as_named, bool by_images, double sync_tolerance = 0.005);
 
-  /// Takes an image into account while there is no answer.
+  /// Adds an image while the decision is pending.
   void add(const ImageInput& image);
-  /// Returns the answer, which then stays; nothing where more pairs are needed and `must_decide` is false. Never asks
-  /// for more than 40 images. Throws UserError, as StereoCalibration.
+  /// Returns the decision, which is final; nullopt if more pairs are needed and `must_decide` is false. Needs at most
+  /// 40 images. Throws UserError like StereoCalibration.
   std::optional<bool> decide(const urban_nav_core::CameraInfo& left, const urban_nav_core::CameraInfo& right,
                              const std::string& where, bool must_decide);
-  /// Returns a sentence for the operator where the answer contradicts the name; else nothing.
+  /// Returns a message if the decision contradicts the topic's name; else an empty text.
   const std::string& contradiction() const { return contradiction_; }
   void reset();
 

@@ -17,8 +17,8 @@
 
 namespace urban_nav_ros {
 
-/// Takes what subscribeRobot() delivers to a core that builds keyframes and local clouds: stereo pairs with the mounted
-/// camera, scans with the places of their lasers, both poses of the odometry. Used by one thread.
+/// Passes the messages of subscribeRobot() to a core that builds keyframes and local clouds: stereo pairs with the
+/// mounted camera, scans with the mounting of their lasers, both poses of odometry. Used by one thread.
 ///
 /// Requires of Sink: setCamera(optional<MountedCamera>), addPair, addTurn, restartImages, addScan, unplacedLasers, setLaser,
 /// addOdometry and addStep. It must outlive this object.
@@ -26,7 +26,7 @@ template <typename Sink, typename MountedCamera>
 class RobotInputs {
  public:
   struct Listener {
-    std::function<void(const std::string& fault)> refused;  ///< the calibration makes no stereo camera
+    std::function<void(const std::string& fault)> refused;  ///< the calibration is not that of a stereo camera
     std::function<void()> invalid_scan;
   };
 
@@ -52,14 +52,14 @@ class RobotInputs {
   void handle(const urban_nav_core::StampedTurn& turn) { sink_.addTurn(turn); }
   void handle(const urban_nav_core::StampedPose& odometry) { sink_.addOdometry(odometry); }
   void handle(const urban_nav_core::SessionStep& step) { sink_.addStep(step); }
-  /// Begins a session whose wait for /tf_static is over. To be called some ten times a second.
+  /// Begins a session whose wait for /tf_static has ended. Call about ten times a second.
   void idle() { sessions_.idle(); }
 
   const StereoSessions& sessions() const { return sessions_; }
   const urban_nav_live::BeamFaults& beams() const { return beams_; }
-  /// Returns a sentence if the camera's mounting is not known; else nothing.
+  /// Returns a message if the camera's mounting is unknown; else an empty text.
   const std::string& mountingFault() const { return mounting_fault_; }
-  /// Returns a sentence that names a laser whose place is not known; else nothing.
+  /// Returns a message naming a laser whose mounting is unknown; else an empty text.
   std::string laserFault() const {
     std::string fault;
     for (const std::string& frame : sink_.unplacedLasers()) fault = "no static tf from " + base_frame_ + " to " + frame;

@@ -12,14 +12,15 @@
 
 namespace urban_nav_ros {
 
-/// Groups of the topics that a stage takes from a robot with odometry (urban_nav_live::TopicMonitor).
+/// Topic groups of a stage that processes a robot with odometry (urban_nav_live::TopicMonitor).
 namespace topic_groups {
 constexpr const char* kOdometry = "odometry";
 constexpr const char* kImages = "images";
 constexpr const char* kLasers = "lasers";
 }  // namespace topic_groups
 
-/// s without a message until a topic is silent. A filter with a window gives its first smoothed pose so late.
+/// s without a message after which a topic is silent. The first smoothed pose of a filter with a window takes that
+/// long.
 constexpr double kRobotTopicTimeout = 5.0;
 
 /// Subscribes to the turns of the right camera that odometry finds. Requires that Input can be made from
@@ -34,10 +35,11 @@ void subscribeTurns(StageNodeWith<Input>& node, int queue) {
       [](const urban_nav_msgs::VoStatisticsConstPtr& message) { return toStampedTurn(*message); });
 }
 
-/// Subscribes to both poses of the odometry, to /tf_static, to turns of the right camera (if Input takes them), to the stereo camera if `stereo`, and to both lasers if
-/// `lasers`. Requires that Input can be made from ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr,
-/// sensor_msgs::LaserScanConstPtr, urban_nav_core::StampedPose (filtered) and urban_nav_core::SessionStep (smoothed).
-/// Odometry is received in a pause too, so that it has no gap.
+/// Subscribes to both poses of odometry, to /tf_static, to the stereo camera and turns of its right camera if `stereo`,
+/// and to both lasers if `lasers`. Requires that Input is constructible from ImageInput, InfoInput,
+/// tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr, urban_nav_core::StampedPose (filtered) and
+/// urban_nav_core::SessionStep (smoothed).
+/// Odometry is also received during a pause, so that it has no gap.
 template <typename Input>
 void subscribeRobot(StageNodeWith<Input>& node, int queue, bool stereo, bool compressed, bool lasers) {
   TopicOptions options;

@@ -16,11 +16,11 @@
 
 namespace urban_nav_ros {
 
-/// Conventions of drivers that differ from the definitions of their messages: parameters `input.imu_delay` and so on of
-/// readers of recordings, `input/imu_delay` and so on of nodelets. Base of their parameters; the rows are those of
+/// Conventions of drivers that differ from the definitions of their messages: parameters `input.imu_delay` etc. of
+/// readers of recordings, `input/imu_delay` etc. of nodelets. Base of their parameter structs; the rows are those of
 /// withSensorCorrections().
 struct SensorCorrectionParameters {
-  std::string accelerometer_axes;                          // as parseAxisMap() reads
+  std::string accelerometer_axes;                          // in the format of parseAxisMap()
   double accelerometer_scale;                              // m/s2
   double gyroscope_scale;                                  // rad/s
   double wheels_scale;                                     // m
@@ -31,7 +31,7 @@ struct SensorCorrectionParameters {
   double laser_left_time_scale, laser_right_time_scale;    // s
 };
 
-/// Corrections by SensorCorrectionParameters.
+/// Corrections given by SensorCorrectionParameters.
 struct SensorCorrections {
   urban_nav_core::AccelerometerConvention accelerometer = {};
   double gyroscope_scale = 1.0, wheels_scale = 1.0;
@@ -42,39 +42,40 @@ struct SensorCorrections {
 /// Returns the corrections. Throws UserError for unknown axes and for a wheels_scale of zero.
 SensorCorrections toCorrections(const SensorCorrectionParameters& parameters);
 
-/// Takes a delay (ns) from a stamp. Returns false, and changes nothing, if nothing above zero remains.
+/// Subtracts a delay (ns) from a stamp. Returns false, without effect, if the result is not positive.
 bool correctStamp(urban_nav_core::StampNs delay, std_msgs::Header& header);
-/// Scales the rates of a message of an IMU, and the positions of one of wheel odometry.
+/// Scale the rates of an IMU message, and the positions of a wheel odometry message.
 void correctRates(double scale, sensor_msgs::Imu& imu);
 void correctPositions(double scale, nav_msgs::Odometry& wheels);
 
-/// Parameter of SensorCorrectionParameters and its value.
+/// Name and value of a parameter of SensorCorrectionParameters.
 struct CorrectionSetting {
   std::string name, value;
 };
-/// Returns what repairs an accelerometer whose messages are read by the convention `present`; empty: nothing does.
+/// Returns the settings that correct an accelerometer whose messages are read by the convention `present`; empty: none
+/// does.
 std::vector<CorrectionSetting> settingsFor(const urban_nav_core::AccelerometerVerdict& verdict,
                                            const urban_nav_core::AccelerometerConvention& present);
-/// Returns what repairs the scans of a laser. `role`: "laser_left" or "laser_right".
+/// Returns the settings that correct the scans of a laser. `role`: "laser_left" or "laser_right".
 std::vector<CorrectionSetting> settingsFor(const urban_nav_core::ScanVerdict& verdict, const std::string& role,
                                            const urban_nav_core::LaserConvention& present);
 
-/// Returns what is wrong with the units of scans, and the likely cause: "the median range is 4200 m: the ranges are in
-/// millimetres"; empty where nothing is.
+/// Returns the fault of the units of scans with its likely cause: "the median range is 4200 m: the ranges are in
+/// millimetres"; empty: no fault.
 std::string describeUnits(const urban_nav_core::ScanVerdict& verdict);
 
-/// Rows of SensorCorrectionParameters; each has its value in a finding of `doctor`.
+/// Returns the rows of SensorCorrectionParameters; `doctor` proposes a value for each in its findings.
 template <typename P>
 std::vector<urban_nav_core::Row<P>> sensorCorrectionRows();
 
-/// Returns `own` rows followed by those of SensorCorrectionParameters.
+/// Returns the rows `own` followed by those of SensorCorrectionParameters.
 template <typename P>
 std::vector<urban_nav_core::Row<P>> withSensorCorrections(std::vector<urban_nav_core::Row<P>> own) {
   for (auto& row : sensorCorrectionRows<P>()) own.push_back(std::move(row));
   return own;
 }
 
-constexpr double kLongestDelay = 1e13;  ///< ms: of a clock that was never set
+constexpr double kLongestDelay = 1e13;  ///< ms: that of a clock that was never set
 
 /// Returns the row of the delay of a sensor.
 template <typename P>
@@ -86,7 +87,7 @@ urban_nav_core::Row<P> delayRow(const std::string& name, double P::*member, cons
           -kLongestDelay,
           kLongestDelay,
           {},
-          "How much later " + what + " are stamped than they were measured; it is taken from their stamps.",
+          "Delay of the stamps of " + what + " relative to the measurement; subtracted from them.",
           "docs/files.md",
           {},
           urban_nav_core::Audience::Experts};
@@ -109,12 +110,12 @@ std::vector<urban_nav_core::Row<P>> laserRows(const std::string& laser, double P
   };
   return {delayRow<P>(laser + "_delay", delay, "scans of " + laser),
           scale("_range_scale", range, "m", 1e-6,
-                "Range of 1 in the messages of " + laser + ": 0.001 where they state millimetres."),
+                "Range of one unit in the messages of " + laser + ": 0.001 for millimetres."),
           scale("_angle_scale", angle, "rad", 1e-6,
-                "Angle of 1 in the messages of " + laser + ": 0.0174532925 where they state degrees."),
+                "Angle of one unit in the messages of " + laser + ": 0.0174532925 for degrees."),
           scale("_time_scale", time, "s", 0.0,
-                "time_increment of 1 in the messages of " + laser +
-                    ": 0.001 where they state milliseconds; 0: all beams have the stamp of their scan.")};
+                "One unit of time_increment in the messages of " + laser +
+                    ": 0.001 for milliseconds; 0: all beams have the stamp of their scan.")};
 }
 
 }  // namespace detail
@@ -130,16 +131,16 @@ std::vector<urban_nav_core::Row<P>> sensorCorrectionRows() {
        false,
        false,
        {},
-       "Which axis of the messages of the IMU is x, y and z of its accelerometer: -x,-y,-z for the sign of NED, y,z,x "
-       "for exchanged axes.",
+       "Axes of the IMU messages that are x, y and z of its accelerometer: -x,-y,-z for the sign of NED, y,z,x for "
+       "exchanged axes.",
        "docs/files.md"},
       scaleRow<P>("accelerometer_scale", &P::accelerometer_scale, "m/s2", 1e-6,
-                  "Specific force of 1 in the messages of the IMU: 9.80665 where they state it in g."),
+                  "Specific force of one unit in the IMU messages: 9.80665 for g."),
       scaleRow<P>("gyroscope_scale", &P::gyroscope_scale, "rad/s", 1e-6,
-                  "Rate of 1 in the messages of the IMU: 0.0174532925 where they state deg/s."),
+                  "Rate of one unit in the IMU messages: 0.0174532925 for deg/s."),
       scaleRow<P>("wheels_scale", &P::wheels_scale, "m", -1e6,
-                  "Distance of 1 in the positions of wheel odometry: 0.001 where they state millimetres, -1 where "
-                  "forward is negative."),
+                  "Distance of one unit in the positions of wheel odometry: 0.001 for millimetres, -1 if forward is "
+                  "negative."),
       delayRow<P>("imu_delay", &P::imu_delay, "messages of the IMU"),
       delayRow<P>("wheels_delay", &P::wheels_delay, "messages of wheel odometry"),
       delayRow<P>("gps_delay", &P::gps_delay, "fixes of the GPS receiver")};

@@ -14,15 +14,15 @@
 
 namespace urban_nav_ros {
 
-/// Parameters of sensors in the namespace `input` next to the nodelets, the same for all of them.
+/// Sensor parameters in the namespace `input` beside the nodelets, common to all of them.
 struct LiveCorrectionParameters : SensorCorrectionParameters {
-  double right_delay;  // ms; of the nodelet that rectifies
+  double right_delay;  // ms; used by the rectifying nodelet
   LiveCorrectionParameters();
 };
 const urban_nav_core::Table<LiveCorrectionParameters>& liveCorrectionTable();
 
-/// Corrects the messages of sensors, by their topics, before a stage reads them: the live counterpart of the readers'
-/// corrections of recordings. The convention of the accelerometer is left to Accelerometer. Names laser scans in other
+/// Corrects sensor messages, by topic, before a stage reads them: the live counterpart of the corrections in the
+/// readers of recordings. The convention of the accelerometer is applied by Accelerometer. Reports laser scans in other
 /// units. Thread-safe.
 class SensorInputs {
  public:
@@ -33,7 +33,7 @@ class SensorInputs {
 
   const SensorCorrections& corrections() const { return corrections_; }
 
-  /// Returns the message itself where nothing is to be corrected, or a corrected copy; null if its stamp is not above
+  /// Returns the message itself if there is nothing to correct, or a corrected copy; null if its stamp does not exceed
   /// the delay. `topic`: a name of topics.hpp.
   sensor_msgs::ImuConstPtr correct(const std::string& topic, const sensor_msgs::ImuConstPtr& message) const;
   nav_msgs::OdometryConstPtr correct(const std::string& topic, const nav_msgs::OdometryConstPtr& message) const;
@@ -44,7 +44,7 @@ class SensorInputs {
     return message;
   }
 
-  /// Returns a sentence for each laser whose last scan was in other units, with the parameter that repairs it.
+  /// Returns a message for each laser whose last scan was in other units, with the parameter that corrects it.
   std::vector<std::string> faults() const;
 
  private:

@@ -34,12 +34,12 @@ namespace urban_nav_ros {
 
 /// Subscription of a stage.
 struct TopicOptions {
-  double timeout = urban_nav_live::TopicMonitor::kNoTimeout;  ///< s without a message until the topic is silent
+  double timeout = urban_nav_live::TopicMonitor::kNoTimeout;  ///< s without a message after which the topic is silent
   std::string group;                                          ///< of urban_nav_live::TopicMonitor
-  bool is_monitored = true;                                   ///< a topic on which nothing need arrive is not
-  bool is_paused = true;  ///< messages are dropped in a pause; odometry must not have a gap
+  bool is_monitored = true;                                   ///< false: messages on the topic are optional
+  bool is_paused = true;  ///< messages are dropped during a pause; false for odometry, which must not have a gap
   int queue = 100;        ///< messages
-  /// When the process is interrupted, this topic may still bring what the stage before it held.
+  /// After an interrupt, wait for messages on this topic, which may come from the window of an earlier stage.
   bool is_awaited = false;
 };
 
@@ -49,11 +49,11 @@ class StageNode {
  public:
   struct Handles {
     ros::NodeHandle nh, private_nh;
-    ros::NodeHandle service_nh;  ///< private, served by several threads: a service that waits delays no message
+    ros::NodeHandle service_nh;  ///< private, served by several threads: a blocking service delays no message
     std::string name;            ///< of the nodelet
   };
-  /// `stage`: its name, before "/status". `topic`: what the stage makes, the title of its diagnostics. Throws UserError
-  /// for parameters of SensorInputs.
+  /// `stage`: name, before "/status". `topic`: product of the stage, the title of its diagnostics. Throws UserError for
+  /// parameters of SensorInputs.
   StageNode(Handles handles, const std::string& stage, const std::string& topic);
   StageNode(const StageNode&) = delete;
   StageNode& operator=(const StageNode&) = delete;
@@ -63,7 +63,7 @@ class StageNode {
   const std::string& name() const { return handles_.name; }
   urban_nav_live::TopicMonitor& monitor() { return monitor_; }
   urban_nav_live::InputGate& gate() { return gate_; }
-  /// Corrections that apply to what subscribe() delivers, except for that of the accelerometer.
+  /// Returns the corrections applied to the messages of subscribe(), except for that of the accelerometer.
   const SensorInputs& sensors() const { return sensors_; }
 
   /// Returns the parameters of the nodelet and of its stage from the private namespace. Throws UserError.
@@ -72,14 +72,14 @@ class StageNode {
     return readParameters(handles_.private_nh, own, stage);
   }
 
-  /// Subscribes. `callback`: called with each message that is not dropped by a pause, corrected by the parameters
-  /// `input/...`, in a thread of ROS.
+  /// Subscribes to a topic. `callback`: called in a thread of ROS with each message that is not dropped by a pause,
+  /// corrected by the parameters `input/...`.
   template <typename Message>
   void subscribe(const std::string& topic, const TopicOptions& options,
                  const std::function<void(const boost::shared_ptr<const Message>&)>& callback);
 
   /// Advertises a private service whose response has `success` and `message`. `action` fills in the response in a
-  /// thread of ROS; an Error that it throws becomes the message of a failure.
+  /// thread of ROS; an Error thrown by it becomes the message of a failure.
   template <typename Service>
   void advertiseService(
       const std::string& name,
@@ -90,27 +90,27 @@ class StageNode {
                      urban_nav_core::StampNs stamp);
   /// Publishes the next status even if it has not changed.
   void restartStatus();
-  /// Sets what update() publishes. `dropped`: inputs for which the queue had no room; `pushed`: all.
+  /// Sets the report that update() publishes. `dropped`: inputs dropped from a full queue; `pushed`: all inputs.
   void setReport(urban_nav_live::StageReport report, std::int64_t dropped, std::int64_t pushed);
   /// Publishes /diagnostics.
   void update() { updater_.force_update(); }
 
   void logInfo(const std::string& text) const;
   void logError(const std::string& text) const;
-  /// Logs the fault of a store when it changes, and when the store is writable again. Returns whether it has changed.
-  /// To be called by one thread.
+  /// Logs the fault of a store when it changes, and when the store is writable again. Returns whether it changed. Must
+  /// be called by one thread.
   bool followStore(const urban_nav_live::StoreState& state);
-  /// Logs a warning, at most one in five seconds for each `key`.
+  /// Logs a warning, at most one in five seconds per `key`.
   void logWarning(const std::string& key, const std::string& text);
 
-  /// Sets and returns the time within which a stage ends that is interrupted.
+  /// Sets and returns the time within which an interrupted stage must end.
   void setDrainTime(double seconds) { drain_ = std::chrono::milliseconds(static_cast<int>(1e3 * seconds)); }
   std::chrono::milliseconds drainTime() const { return drain_; }
-  /// Waits until no other process publishes the awaited topics and no message has come for a moment; at the latest
+  /// Waits until no other process publishes the awaited topics and no message has been received for a moment, at most
   /// until `end`.
   void awaitInputs(std::chrono::steady_clock::time_point end) const;
 
-  /// Ends subscriptions and services: no callback runs after it.
+  /// Ends subscriptions and services: no callback runs afterwards.
   void shutDown();
 
  private:
@@ -126,41 +126,41 @@ class StageNode {
   std::chrono::milliseconds drain_{5000};
   std::vector<ros::ServiceServer> services_;
   ros::Publisher status_publisher_;
-  std::string store_fault_;  // of the thread that calls followStore()
+  std::string store_fault_;  // used by the thread that calls followStore()
 
-  mutable std::mutex mutex_;  // guards what follows but updater_
+  mutable std::mutex mutex_;  // guards all members below except updater_
   std::optional<urban_nav_msgs::StageStatus> last_status_;
   urban_nav_live::StageReport report_;
   std::int64_t dropped_ = 0, pushed_ = 0;
-  mutable urban_nav_live::FaultRates rates_;  // followed as the report is published
+  mutable urban_nav_live::FaultRates rates_;  // updated when the report is published
   std::map<std::string, Clock::time_point> warned_;
   diagnostic_updater::Updater updater_;
 };
 
-/// StageNode together with the queue of the stage's worker. Thread-safe after the stage's constructor.
+/// StageNode with the queue of the stage's worker. Thread-safe after the stage's constructor.
 template <typename Input>
 class StageNodeWith : public StageNode {
  public:
   using StageNode::StageNode;
 
-  /// Sets the number of inputs that may wait for the worker, and the time, s, within which an interrupted stage ends.
+  /// Sets the capacity of the worker's queue, inputs, and the time, s, within which an interrupted stage must end.
   void setQueueSize(int inputs, double drain_s = 5.0) {
     loop_.setCapacity(static_cast<std::size_t>(inputs));
     setDrainTime(drain_s);
   }
   void push(Input input) { loop_.push(std::move(input)); }
-  /// Subscribes, and queues what `convert` makes of each message: an Input, or an optional one. A message for which it
-  /// is empty is counted as invalid, with a warning.
+  /// Subscribes and queues the result of `convert` for each message: an Input, or an optional one. A message for which
+  /// it is empty is counted as invalid, with a warning.
   template <typename Message, typename Convert>
   void subscribeInput(const std::string& topic, const TopicOptions& options, const Convert& convert);
 
-  /// Returns the answer of `question`, evaluated in the worker's thread after all earlier inputs. Throws what it
-  /// throws, and UserError if it is not answered within `timeout`. Requires that the caller is not the worker.
+  /// Evaluates `question` in the worker's thread after all earlier inputs, and returns its result. Rethrows its
+  /// exceptions. Throws UserError if it is not evaluated within `timeout`. Requires that the caller is not the worker.
   template <typename Question>
   auto ask(const Question& question, std::chrono::milliseconds timeout = std::chrono::seconds(30))
       -> decltype(question()) {
     auto answer = loop_.ask(question, timeout);
-    if (!answer) throw urban_nav_core::UserError("", "still at work on what came before; ask again", "");
+    if (!answer) throw urban_nav_core::UserError("", "busy with earlier inputs; try again", "");
     return std::move(*answer);
   }
   urban_nav_live::WorkerLoop<Input>& loop() { return loop_; }
@@ -224,7 +224,7 @@ void StageNodeWith<Input>::subscribeInput(const std::string& topic, const TopicO
   subscribe<Message>(topic, options, [this, topic, convert](const boost::shared_ptr<const Message>& message) {
     if (std::optional<Input> input = toInput(convert(message))) return push(std::move(*input));
     gate().countInvalid();
-    logWarning(topic, topic + ": an invalid message: not finite, no pose, or an unknown kind");
+    logWarning(topic, topic + ": invalid message: not finite, an invalid pose, or an unknown enumerator");
   });
 }
 

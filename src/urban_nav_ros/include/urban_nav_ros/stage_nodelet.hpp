@@ -17,10 +17,11 @@
 
 namespace urban_nav_ros {
 
-/// Nodelet of a live stage. Callbacks convert and enqueue; one worker hands the inputs to the stage, which publishes.
-/// Provides: fatal errors of parameters; ~reset, ~pause and ~resume; <stage>/status; /diagnostics each second.
+/// Nodelet of a live stage. Callbacks convert and enqueue; one worker passes the inputs to the stage, which publishes.
+/// Provides fatal errors for invalid parameters, the services ~reset, ~pause and ~resume, <stage>/status, and
+/// /diagnostics once a second.
 ///
-/// A stage is a class that has its topics and converters, and an algorithm that is free of ROS:
+/// A stage is a class with its topics and converters, and an algorithm that is independent of ROS:
 ///
 ///     class FrameCounter {
 ///      public:
@@ -37,16 +38,16 @@ namespace urban_nav_ros {
 ///         node.subscribeInput<sensor_msgs::Image>(
 ///             topics::left_image, {1.0}, [](const auto& image) { return toStampNs(image->header.stamp); });
 ///       }
-///       // What follows is called by the worker.
+///       // Called by the worker, as are all functions below.
 ///       void handle(Input& stamp);
-///       // Before the first input, and after each round of inputs. Returns true to be called again without a wait.
+///       // Called before the first input and after each round of inputs. Returns true to be called again at once.
 ///       bool idle() { return false; }
 ///       std::string reset() { counter_ = {}; return "the count is 0"; }
 ///       void close() {}                                      // before the nodelet ends
-///       // Optional. The process is interrupted: what the stage still holds is published or decided within `limit`.
-///       // Before that all has come that the topics with TopicOptions::is_awaited bring.
+///       // Optional. Called when the process is interrupted: publishes or decides pending data within `limit`.
+///       // All messages of topics with TopicOptions::is_awaited have been handled before.
 ///       void finish(std::chrono::milliseconds limit);
-///       // Optional. Stages with a smaller number finish before others of the same process; 0 is that of an odometry.
+///       // Optional. Stages of a process finish in ascending order; 0 is that of odometry.
 ///       static constexpr int kFinishOrder = 1;
 ///       urban_nav_live::StageReport report() const;          // after each idle()
 ///      private:
@@ -79,7 +80,7 @@ class StageNodelet : public nodelet::Nodelet {
       stage_ = std::make_unique<Stage>(*node_);
     } catch (const urban_nav_core::Error& error) {
       NODELET_FATAL("%s", error.what());
-      node_.reset();  // now: the loader destroys the callback queues before the nodelet
+      node_.reset();  // first, because the loader destroys the callback queues before the nodelet
       throw;
     }
     start();
@@ -119,7 +120,7 @@ class StageNodelet : public nodelet::Nodelet {
     });
   }
 
-  // Members of the stage are preferred: an int needs no conversion.
+  // Members of the stage are preferred in overload resolution: int needs no conversion.
   template <typename S = Stage>
   static constexpr auto finishOrder(int) -> decltype(S::kFinishOrder + 0) {
     return S::kFinishOrder;
@@ -138,7 +139,7 @@ class StageNodelet : public nodelet::Nodelet {
           return true;
         },
         left + kLeastDrain);
-    if (!done) node_->logError("not all that waited was decided within drain_s; it is given up");
+    if (!done) node_->logError("pending inputs were not decided within drain_s and are dropped");
   }
   void finish(long) {}
 

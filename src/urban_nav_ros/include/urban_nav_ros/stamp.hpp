@@ -7,8 +7,8 @@
 
 namespace urban_nav_ros {
 
-/// Both directions are exact. ROS holds seconds as 32 unsigned bits: a stamp before 1970 or after 2106 is clamped to
-/// the nearest that ROS can say.
+/// Exact conversions in both directions. ROS stores seconds in 32 unsigned bits: stamps before 1970 or after 2106 are
+/// clamped.
 urban_nav_core::StampNs toStampNs(const ros::Time& time);
 ros::Time toRosTime(urban_nav_core::StampNs stamp);
 

@@ -12,12 +12,12 @@
 
 namespace urban_nav_ros {
 
-/// The constants OK, DEGRADED, LOST, RECOVERED that all messages of urban_nav_msgs share; nothing for a number that is
-/// none of them.
+/// Conversions to the constants OK, DEGRADED, LOST, RECOVERED of the messages of urban_nav_msgs; reading returns empty
+/// for any other number.
 std::uint8_t toMessage(urban_nav_core::Health health);
 std::optional<urban_nav_core::Health> toHealth(std::uint8_t value);
 
-/// `reason_name`: the stage's own name of status.reason.
+/// `reason_name`: the stage's name of status.reason.
 urban_nav_msgs::StageStatus toStatusMessage(urban_nav_core::StampNs stamp, const std::string& stage,
                                             const urban_nav_core::Status& status, const std::string& reason_name);
 

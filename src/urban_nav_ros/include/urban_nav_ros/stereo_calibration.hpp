@@ -14,27 +14,27 @@ namespace urban_nav_ros {
 
 enum class Side { Left, Right };
 
-/// Whether the images of a topic were rectified before they came, by a nodelet's parameter `images`: raw, rectified, or
-/// auto, which asks whether the topic's name has `rect` in it, as image_proc names them.
+/// Returns whether the images of a topic are rectified, by a nodelet's parameter `images`: raw, rectified, or auto, by
+/// which topics with `rect` in their names are rectified, as named by image_proc.
 bool areRectified(const std::string& images, const std::string& topic);
 
-/// The calibration of a stereo pair of topics: what the two camera_info say, made into a rectified camera and, where
-/// the images are raw, the maps that rectify them. Thread-safe.
+/// Calibration of a stereo pair of topics: the rectified camera from both camera_info and, for raw images, the maps
+/// that rectify them. Thread-safe.
 class StereoCalibration {
  public:
-  /// `images_are_rectified`: image_rect, whose camera_info still holds the distortion of the raw image. Throws
-  /// UserError that begins with `where` where the two are no stereo pair.
+  /// `images_are_rectified`: image_rect, whose camera_info still has the distortion of the raw image. Throws UserError
+  /// that begins with `where` if the two are not a stereo pair.
   StereoCalibration(const urban_nav_core::CameraInfo& left, const urban_nav_core::CameraInfo& right,
                     bool images_are_rectified, const std::string& where);
 
   const urban_nav_core::StereoCamera& camera() const { return camera_; }
-  /// The rectified left camera in the left optical frame that tf knows: a rotation, the identity where the calibration
-  /// has none.
+  /// Returns the rectified left camera in the left optical frame of tf: a rotation, the identity if the calibration has
+  /// none.
   const urban_nav_core::Pose& T_optical_rectified() const { return T_optical_rectified_; }
   bool rectifies() const { return left_map_.has_value(); }
 
-  /// The image as the stereo camera sees it: the same where nothing is to be done, else a view into `out`. Empty where
-  /// the image has not the size of the calibration.
+  /// Returns the rectified image: the image itself if it is rectified, else a view of `out`. Empty if the image does
+  /// not have the size of the calibration.
   urban_nav_core::ImageView rectify(Side side, const urban_nav_core::ImageView& image,
                                     std::vector<std::uint8_t>& out) const;
 

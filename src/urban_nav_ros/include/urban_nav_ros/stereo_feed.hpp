@@ -22,24 +22,24 @@
 
 namespace urban_nav_ros {
 
-/// A rectified grey pair with its motion inputs, and the faults of its images. An image that is missing or cannot be
-/// decoded is an empty view, and a sentence in `faults` names it.
+/// Rectified grey pair with its motion inputs, and the faults of its images. An image that is missing or cannot be
+/// decoded is an empty view and is named in `faults`.
 struct DecodedPair {
   urban_nav_core::StereoPairWithMotion assembled;
   std::vector<std::string> faults;
 };
 
-/// Messages in, stereo pairs out: converters, TimeOrderedQueue, pairing and rectification in the one way that nodelet
-/// and bag reader share, so that both hand a stage the same bytes. One session and one calibration: begin the next with
-/// a new object. Not thread-safe.
+/// Converts messages to stereo pairs: converters, TimeOrderedQueue, pairing and rectification, common to nodelets and
+/// the bag reader, so that both deliver identical data. For one session and one calibration: create a new object for
+/// the next. Not thread-safe.
 class StereoFeed {
  public:
   struct Options {
     urban_nav_core::StampNs max_lateness = 50'000'000;
     urban_nav_core::DeliveryOrder delivery = urban_nav_core::DeliveryOrder::Shuffled;
     urban_nav_core::StampNs pairing_tolerance = 5'000'000;
-    /// Motion inputs that may come: in live order the feed waits for them as for an image, unless they are optional and
-    /// silent. Inputs of no sensor come with the first of them.
+    /// Expected motion inputs: in live order the feed waits for them as for an image, unless they are optional and
+    /// silent. If no sensor is selected, the first one received is used.
     urban_nav_core::MotionChoice motion;
   };
   StereoFeed(const Options& options, std::shared_ptr<const StereoCalibration> calibration);
@@ -47,26 +47,25 @@ class StereoFeed {
   void add(Side side, const sensor_msgs::ImageConstPtr& image);
   void add(Side side, const sensor_msgs::CompressedImageConstPtr& image);
   void add(const urban_nav_core::MotionInput& input);
-  /// States the range of 16-bit pixels as far as it is known in advance.
+  /// Sets the range of 16-bit pixels if it is known in advance.
   void expectRange(const GreyRange& range) { range_ = range; }
-  /// Nothing more will come: all that waits may leave.
+  /// Ends the input: take() then returns all remaining pairs.
   void finish();
 
-  /// The next pair that is complete, or known to stay incomplete. Images are decoded and rectified here, not when they
-  /// are added.
+  /// Returns the next pair that is complete, or known to remain incomplete. Images are decoded and rectified here, not
+  /// when they are added.
   std::optional<DecodedPair> take();
 
-  /// Where it stands between two messages, as take() has nothing more: what waits, as it came, and what has been
-  /// counted.
+  /// Reads or writes the state between two messages, when take() returns nothing more: pending messages and counters.
   void archive(urban_nav_core::Archive& archive);
 
-  /// What came on a side, too late or twice.
+  /// Returns the number of images of a side, and of those dropped as late or duplicate.
   const urban_nav_core::TimeOrderedQueueCounts& counts(Side side) const;
-  /// Pairs that left without an image of this side.
+  /// Returns the number of pairs without an image of this side.
   std::int64_t missing(Side side) const;
-  /// Number of images rectified by this object.
+  /// Returns the number of images rectified by this object.
   std::int64_t rectified() const { return rectified_; }
-  /// The latest stamp of a side so far.
+  /// Returns the latest stamp of a side so far.
   std::optional<urban_nav_core::StampNs> reached(Side side) const;
 
  private:
@@ -84,10 +83,10 @@ class StereoFeed {
   urban_nav_core::TimeOrderedQueue<Input> queue_;
   urban_nav_core::StereoAssembler assembler_;
   urban_nav_core::StampNs pairing_tolerance_;
-  GreyRange range_;  // for the 16-bit pixels of both cameras
+  GreyRange range_;  // 16-bit pixels of both cameras
   std::vector<std::string> faults_;
   bool finished_ = false, drained_ = false;
-  std::int64_t rectified_ = 0;  // images; no part of the archived state
+  std::int64_t rectified_ = 0;  // images; not part of the archived state
 };
 
 }  // namespace urban_nav_ros

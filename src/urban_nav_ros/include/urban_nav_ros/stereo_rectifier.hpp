@@ -19,24 +19,24 @@
 
 namespace urban_nav_ros {
 
-/// Decodes and rectifies the images of a stereo camera, to the same pixels as StereoFeed. Images that are rectified
-/// already pass through, without a copy if they are mono8 and keep their stamp. Used by one thread.
+/// Decodes and rectifies the images of a stereo camera, with the same result as StereoFeed. Rectified images are passed
+/// through, without a copy if they are mono8 and keep their stamp. Used by one thread.
 ///
-/// Images that arrive before the calibration wait for it. An image that cannot be decoded, or has a wrong size, becomes
-/// a message without pixels, so that it is missing at once and not only after a timeout.
+/// Images that arrive before the calibration are queued. An image that cannot be decoded or has a wrong size becomes a
+/// message without pixels, so that it is reported missing at once instead of after a timeout.
 class StereoRectifier {
  public:
   struct Options {
     bool rectified = false;      ///< the images are rectified already
-    bool judges_images = false;  ///< `rectified` is a guess: the first pairs decide, where they can
-    /// Time from the stamp of a left image to that of the right one that was exposed with it.
+    bool judges_images = false;  ///< `rectified` is uncertain: the first pairs decide, if possible
+    /// Delay of the stamps of right images relative to those of left images with the same exposure, ns.
     urban_nav_core::StampNs right_delay = 0;
-    int queue = 200;               ///< images that wait for the calibration
-    std::string where = "stereo";  ///< what an error of the calibration begins with
+    int queue = 200;               ///< capacity, images that wait for the calibration
+    std::string where = "stereo";  ///< prefix of errors of the calibration
   };
   struct Listener {
     std::function<void(Side side, const sensor_msgs::ImageConstPtr& image)> image;
-    std::function<void(const std::string& fault)> fault;  ///< of an image, or of the calibration
+    std::function<void(const std::string& fault)> fault;  ///< reports an image or the calibration
   };
   struct Counts {
     std::int64_t rectified = 0, passed = 0, damaged = 0, dropped = 0;  ///< images
@@ -49,12 +49,11 @@ class StereoRectifier {
 
   void handle(const InfoInput& info);
   void handle(ImageInput image);
-  /// Forgets the images that wait.
+  /// Drops the waiting images.
   void reset();
 
   const Counts& counts() const { return counts_; }
-  /// Returns the state for the operator: a warning until the calibration is known, and for one that no vehicle
-  /// has.
+  /// Returns the state for the operator: a warning until the calibration is known, and for an implausible one.
   urban_nav_live::StageReport report() const;
 
  private:
@@ -68,10 +67,10 @@ class StereoRectifier {
   sensor_msgs::CameraInfoConstPtr left_info_, right_info_;
   RectificationJudge judge_;
   std::optional<StereoCalibration> calibration_;
-  std::deque<ImageInput> waiting_;  // for the calibration
+  std::deque<ImageInput> waiting_;  // images before the calibration
   urban_nav_live::TimeJumpDetector images_;
-  GreyRange range_;    // for the 16-bit pixels of both cameras
-  std::string fault_;  // of the calibration
+  GreyRange range_;    // 16-bit pixels of both cameras
+  std::string fault_;  // fault of the calibration
   Counts counts_;
 };
 

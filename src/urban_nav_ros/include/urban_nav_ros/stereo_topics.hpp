@@ -11,7 +11,7 @@
 
 namespace urban_nav_ros {
 
-/// Returns the options of a stage with these parameters.
+/// Returns the session options of a stage with these parameters.
 inline StereoSessions::Options toStereoOptions(const urban_nav_live::StereoInputParameters& parameters,
                                                const ros::NodeHandle& nh) {
   StereoSessions::Options options;
@@ -26,8 +26,8 @@ inline StereoSessions::Options toStereoOptions(const urban_nav_live::StereoInput
   return options;
 }
 
-/// Subscribes to the images and camera_info of both sides as inputs of a stage. Requires that Input can be made from
-/// ImageInput and InfoInput. `options` apply to the images; camera_info need arrive only once.
+/// Subscribes to the images and camera_info of both sides as inputs of a stage. Requires that Input is constructible
+/// from ImageInput and InfoInput. `options` apply to the images; camera_info is required only once.
 template <typename Input>
 void subscribeImages(StageNodeWith<Input>& node, const TopicOptions& options, bool compressed) {
   for (const Side side : {Side::Left, Side::Right}) {
@@ -49,9 +49,9 @@ void subscribeImages(StageNodeWith<Input>& node, const TopicOptions& options, bo
   node.monitor().expectPairs(node.nh().resolveName(topics::kLeftImage), node.nh().resolveName(topics::kRightImage));
 }
 
-/// Subscribes to images, camera_info, /tf_static and motion sensors as inputs of a stage. Requires that Input can be
-/// made from ImageInput, InfoInput and tf2_msgs::TFMessageConstPtr, and from the messages of the motion sensors if
-/// there are any. `options` apply to images and motion; the absence of a sensor that is not required is no fault.
+/// Subscribes to images, camera_info, /tf_static and motion sensors as inputs of a stage. Requires that Input is
+/// constructible from ImageInput, InfoInput and tf2_msgs::TFMessageConstPtr, and from the messages of the motion
+/// sensors, if any. `options` apply to images and motion; the absence of an optional sensor is not a fault.
 template <typename Input>
 void subscribeStereo(StageNodeWith<Input>& node, const TopicOptions& options, bool compressed,
                      const urban_nav_core::MotionChoice& motion) {

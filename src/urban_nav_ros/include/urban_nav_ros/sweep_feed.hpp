@@ -13,17 +13,17 @@
 
 namespace urban_nav_ros {
 
-/// Turns the clouds of one 3D LiDAR into sweeps, as the reader of recordings does. How they are read is decided from
-/// the first CloudSurvey::kEnough of them; until then they wait. Clouds of a planar laser give none. Not thread-safe.
+/// Converts the clouds of one 3D LiDAR to sweeps, like the reader of recordings. Conventions are determined from the
+/// first CloudSurvey::kEnough clouds, which wait until then. Clouds of a planar laser are discarded. Not thread-safe.
 class SweepFeed {
  public:
   explicit SweepFeed(urban_nav_core::CloudOptions options = {});
 
   /// Returns the sweeps that are ready after a message, in the order of their messages.
   std::vector<urban_nav_core::ReadSweep> add(const sensor_msgs::PointCloud2ConstPtr& message);
-  /// Returns how clouds are read; nullopt until that is decided.
+  /// Returns the conventions of the clouds; nullopt until they are determined.
   std::optional<urban_nav_core::CloudConvention> convention() const;
-  /// Returns why the clouds are not used; empty: they are, or nothing is decided.
+  /// Returns why the clouds are not used; empty: they are used, or the decision is pending.
   const std::string& fault() const { return fault_; }
 
  private:

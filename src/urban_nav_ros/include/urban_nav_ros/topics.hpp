@@ -113,7 +113,7 @@ constexpr const char* kPlaceImages = "/places/image";
 constexpr const char* kDiagnostics = "/diagnostics";
 }  // namespace results
 
-/// Returns the name that a topic has outside of namespaces, as recordings contain it: "/imu/data".
+/// Returns the absolute name of a topic, as in recordings: "/imu/data".
 inline std::string fromRoot(const std::string& topic) {
   return !topic.empty() && topic.front() == '/' ? topic : "/" + topic;
 }

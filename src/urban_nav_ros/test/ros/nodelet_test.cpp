@@ -14,7 +14,7 @@
 namespace urban_nav_ros {
 namespace {
 
-/// A distorted stereo camera, and a listener to the rectified images.
+/// Distorted stereo camera, with a listener to the rectified images.
 class RectifiedCamera : public testing::Listener {
  public:
   RectifiedCamera() : Listener("stereo_rectify") {

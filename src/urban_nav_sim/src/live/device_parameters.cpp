@@ -21,32 +21,32 @@ const Table<DeviceParameters>& deviceTable() {
   static const Table<DeviceParameters> rows(
       "device",
       {
-          {"kind", &P::kind, "", "lms291", false, false, serialDeviceKinds(), "Which device.", ""},
+          {"kind", &P::kind, "", "lms291", false, false, serialDeviceKinds(), "Kind of the device.", ""},
           {"bag", &P::bag, "", "", false, false, {},
-           "Recorded session that the device measures, of `urban_nav simulate`.", ""},
-          {"side", &P::side, "", "left", false, false, {"left", "right"}, "Which laser.", ""},
+           "Recorded session of `urban_nav simulate` that the device reproduces.", ""},
+          {"side", &P::side, "", "left", false, false, {"left", "right"}, "Side of the laser.", ""},
           {"link", &P::link, "", "", false, false, {}, "Path of the link to the pseudo-terminal.", ""},
           {"tcp", &P::tcp, "", 0, 0, 65535, {},
-           "Port at which a receiver serves gpsd's protocol in place of the link; 0: none.", ""},
+           "Port of the gpsd protocol of a receiver, instead of the link; 0: none.", ""},
           {"fault", &P::fault, "", "", false, false, {},
-           "What goes wrong, separated by commas: KIND:START_S:DURATION_S[:VALUE], as for "
-           "`urban_nav device simulate --fault`.",
+           "Faults, separated by commas: KIND:START_S:DURATION_S[:VALUE], as for `urban_nav device simulate --fault`.",
            ""},
           {"clock", &P::clock, "", "", false, false, {},
-           "Clock of the device against the host's: OFFSET_S:PPM; empty: none is off.", ""},
+           "Clock of the device relative to that of the host: OFFSET_S:PPM; empty: equal.", ""},
           {"delay", &P::delay, "", "", false, false, {},
            "Delays from measurement to first byte: exponential:MIN:MEAN:MAX, uniform:MIN:MAX or batch:MS, in ms; "
-           "empty: the device's own, without jitter.",
+           "empty: that of the device, without jitter.",
            ""},
           {"begin", &P::begin, "", "", false, false, {},
-           "File in which devices agree on the begin of their session, new for each launch; empty: at once.", ""},
+           "File by which devices begin their sessions together, new for each launch; empty: at once.", ""},
           {"held", &P::held, "", false, false, true, {},
            "Whether there is no port before another process has written the begin, ns of the steady clock, to that "
            "file.",
            ""},
           {"truth", &P::truth, "", "", false, false, {},
            "File for sequence,true_ns of each measurement, written at the end; empty: none.", ""},
-          {"seed", &P::seed, "", 1, 0, std::int64_t{std::numeric_limits<int>::max()}, {}, "Of delays and faults.", ""},
+          {"seed", &P::seed, "", 1, 0, std::int64_t{std::numeric_limits<int>::max()}, {},
+           "Seed of delays and faults.", ""},
       });
   return rows;
 }

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/parameters/documents.hpp"
 #include "urban_nav_core/parameters/print.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -20,9 +21,10 @@ DeviceParameters laserParameters() {
 }
 
 // Tests run in the folder of the package. What differs is written anew by the build target urban_nav_sim_documents.
-TEST(DeviceParameters, TheReadmeShowsTheTable) {
-  const std::string readme = urban_nav_core::readTextFile("README.md");
-  EXPECT_EQ(readme, insertMarkdown(readme, "README.md", deviceTable().stage(), deviceTable().rows()));
+TEST(DeviceParameters, ThePackagesDocumentShowsTheTable) {
+  const std::string document = urban_nav_core::findParameterDocument(".");
+  const std::string text = urban_nav_core::readTextFile(document);
+  EXPECT_EQ(text, insertMarkdown(text, document, deviceTable().stage(), deviceTable().rows()));
 }
 
 TEST(DeviceParameters, TextsAreThoseOfTheCommand) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/parameters/documents.hpp"
 #include "urban_nav_core/parameters/print.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -11,9 +12,10 @@ namespace urban_nav_sim {
 namespace {
 
 // Tests run in the folder of the package. What differs is written anew by the build target urban_nav_sim_documents.
-TEST(SimulatorParameters, TheReadmeShowsTheTable) {
-  const std::string readme = urban_nav_core::readTextFile("README.md");
-  EXPECT_EQ(readme, insertMarkdown(readme, "README.md", simulatorTable().stage(), simulatorTable().rows()));
+TEST(SimulatorParameters, ThePackagesDocumentShowsTheTable) {
+  const std::string document = urban_nav_core::findParameterDocument(".");
+  const std::string text = urban_nav_core::readTextFile(document);
+  EXPECT_EQ(text, insertMarkdown(text, document, simulatorTable().stage(), simulatorTable().rows()));
 }
 
 TEST(SimulatorParameters, TheirDefaultsAreThoseOfTheCommand) {

@@ -16,8 +16,8 @@ void appendFloat(std::string& bytes, float value);
 /// Appends the length of the text, then the text.
 void appendText(std::string& bytes, std::string_view text);
 
-/// Reads bytes of the functions above. Values past the end are zero or empty, and ok() is false from then on: check it
-/// at the end, and before using a count of items that follow.
+/// Reads the output of the functions above. Values past the end are zero or empty, and ok() is false from then on:
+/// check it at the end, and before using the count of items that follow.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}

@@ -11,8 +11,8 @@
 
 namespace urban_nav_store {
 
-/// Visitor of the columns of a row. A row names its columns once, in the order of the table, in one function that
-/// declares, writes and reads:
+/// Visitor of the columns of a row. A row lists its columns once, in table order, in one function for declaring,
+/// writing and reading:
 ///
 ///   void Panorama::columns(Columns& columns) {
 ///     columns.text("session", session);
@@ -20,36 +20,35 @@ namespace urban_nav_store {
 ///     columns.blob("image", image);
 ///   }
 ///
-/// Reading sets the values, writing and declaring leave them as they are. Values passed by reference must live until
-/// the visit of the whole row has been used; scratch() holds converted ones.
+/// Reading sets the values; writing and declaring do not change them. Values passed by reference must live until the
+/// visit of the whole row has been used; scratch() holds converted ones.
 class Columns {
  public:
   virtual ~Columns() = default;
 
   virtual bool isReading() const { return false; }
-  /// Returns whether invalid values are to be refused: while reading, and before writing.
+  /// Returns whether invalid values are refused: while reading, and before writing.
   virtual bool isValidating() const { return false; }
-  /// The columns named after this call were added to their table with this version of the schema. Older files have
-  /// their default values.
+  /// Declares that the columns after this call were added to their table in this version of the schema. Older files
+  /// have their default values.
   virtual void since(int /*version*/) {}
 
   virtual void text(const char* name, std::string& value) = 0;
   virtual void integer(const char* name, std::int64_t& value) = 0;
-  /// Finite. -0 is stored as 0.
+  /// Requires a finite value. -0 is stored as 0.
   virtual void real(const char* name, double& value) = 0;
   virtual void blob(const char* name, std::string& value) = 0;
 
-  /// Whole numbers 0 and 1.
+  /// Integer column with the values 0 and 1.
   void flag(const char* name, bool& value);
   /// Seven columns: x y z (m) qx qy qz qw.
   void pose(urban_nav_core::Pose& value);
-  /// A blob of little-endian numbers, row by row: 36, or the 21 of the upper triangle if the matrix is symmetric to the
-  /// last bit.
+  /// Blob of little-endian numbers, row by row: 36, or the 21 of the upper triangle if the matrix is exactly symmetric.
   void matrix6(const char* name, urban_nav_core::Matrix6d& value);
-  /// A blob, empty without any: their number (eight bytes), then for each the name (length in eight bytes, text) and
-  /// nine doubles: used, mean, sigma and the sensitivity.
+  /// Blob, empty without constants: their number (eight bytes), then for each the name (length in eight bytes, text)
+  /// and nine doubles: used, mean, sigma and the sensitivity.
   void constants(const char* name, urban_nav_core::ConsideredConstants& values);
-  /// An enumerator as the word of its toString().
+  /// Stores an enumerator as the word of its toString().
   template <typename Word>
   void word(const char* name, Word& value, std::optional<Word> (*parse)(std::string_view)) {
     std::string& spelt = scratch();
@@ -57,16 +56,15 @@ class Columns {
     text(name, spelt);
     if (!isReading()) return;
     const std::optional<Word> parsed = parse(spelt);
-    if (!parsed) refuse(std::string(name) + " is an unknown word");
+    if (!parsed) refuse(std::string(name) + " is an unknown value");
     value = *parsed;
   }
 
-  /// Reports an invalid row. Throws UserError if it was to be written, DataError if it was read. Requires
-  /// isValidating().
+  /// Reports an invalid row. Throws UserError when writing, DataError when reading. Requires isValidating().
   [[noreturn]] virtual void refuse(const std::string& what) const;
 
  protected:
-  /// An empty string that lives as long as the visitor.
+  /// Returns an empty string that lives as long as the visitor.
   std::string& scratch() { return scratch_.emplace_back(); }
 
  private:

@@ -6,7 +6,7 @@
 
 namespace urban_nav_store {
 
-/// SHA-256 (FIPS 180-4) as 64 hexadecimal digits.
+/// Returns SHA-256 (FIPS 180-4) as 64 hexadecimal digits.
 std::string sha256(std::string_view bytes);
 
 }  // namespace urban_nav_store

@@ -13,20 +13,20 @@
 
 namespace urban_nav_store {
 
-/// The edits of a store in the order of their numbers, undone ones included. The store must outlive this object.
-/// Changes are not committed. Not thread-safe. Throws the errors of Store.
+/// Edits of a store in the order of their numbers, including undone ones. The store must outlive this object. Changes
+/// are not committed. Not thread-safe. Throws the errors of Store.
 class EditJournal {
  public:
   explicit EditJournal(Store& store) : store_(&store) {}
 
   std::vector<StoredEdit> all() const;
-  /// Returns those that are not undone.
+  /// Returns the edits that are not undone.
   std::vector<StoredEdit> standing() const;
-  /// Appends an edit and returns its number. What was undone before can no longer be redone.
+  /// Appends an edit and returns its number. Undone edits can no longer be redone.
   std::int64_t append(StoredEdit edit);
   /// Undoes the newest `count` edits in force, or all if there are fewer. Returns their numbers, the newest first.
   std::vector<std::int64_t> undo(std::size_t count);
-  /// Takes back what was undone last. Returns its number; nullopt if there is nothing to redo.
+  /// Redoes the edit undone last. Returns its number; nullopt if there is nothing to redo.
   std::optional<std::int64_t> redo();
   /// Removes an edit.
   void remove(std::int64_t number);
@@ -37,20 +37,20 @@ class EditJournal {
   Store* store_;
 };
 
-/// Beginning of the source of edges that edits have added.
+/// Prefix of the source of edges added by edits.
 constexpr const char* kEditSource = "edit";
-/// Returns whether an edge comes from an edit: it is none of the measurements.
+/// Returns whether an edge was added by an edit, and is therefore not a measurement.
 bool isOfEdit(const std::string& source);
 
 /// Identity of an edge.
 using EdgeKey = std::tuple<SessionId, std::int64_t, SessionId, std::int64_t, EdgeKind, std::string>;
 EdgeKey edgeKey(const Edge& edge);
 
-/// Returns the numbers of the edges of a store that close loops, those without a stored one after all others, in the
-/// order of the later of their poses. What reads the same store later finds the same numbers as long as it is not
-/// written; see storeEdgeNumbers().
+/// Returns the numbers of the edges of a store that close loops. Edges without a stored number follow all others, in
+/// the order of the later of their poses. The numbers are reproducible until the store is written; see
+/// storeEdgeNumbers().
 std::map<EdgeKey, std::int64_t> readEdgeNumbers(Store& store);
-/// Stores the numbers of all edges: they stay from then on. Does not commit.
+/// Stores the numbers of all edges, which makes them permanent. Does not commit.
 void storeEdgeNumbers(Store& store);
 
 }  // namespace urban_nav_store

@@ -19,9 +19,10 @@ namespace urban_nav_store {
 struct Node {
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::Pose T_odom_base;
-  /// Covariance of the motion since the previous node, its parent frame (PoseWithCovariance); zero in the first.
+  /// Covariance of the motion since the previous node, in whose frame it is given (PoseWithCovariance); zero in the
+  /// first.
   urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Zero();
-  /// The part of the covariance that is independent of the neighbouring steps, and hence accumulates along the path.
+  /// Part of the covariance that is independent of neighbouring steps, and hence accumulates along the path.
   urban_nav_core::Matrix6d drift_covariance = urban_nav_core::Matrix6d::Zero();
   urban_nav_core::Health status = urban_nav_core::Health::Ok;
   /// Sensitivity of the motion since the previous node to constants of the rig (RelativePose::constants).
@@ -34,7 +35,7 @@ struct Node {
 struct RelaxedPose {
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::Pose T_map_base;
-  std::int64_t revision = 0;  ///< of the graph when the pose last changed
+  std::int64_t revision = 0;  ///< revision of the graph when the pose last changed
   /// Covariance of the pose relative to the first pose of its map, in the axes of that pose; zero: unknown.
   urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Zero();
 };
@@ -46,11 +47,11 @@ struct NodeRef {
 bool operator==(const NodeRef& a, const NodeRef& b);
 
 enum class EdgeKind { Odometry, Stereo, Icp, Plane, Session, Asserted };
-/// "odometry", "stereo", "icp", "plane", "session", "asserted".
+/// Returns "odometry", "stereo", "icp", "plane", "session" or "asserted".
 const char* toString(EdgeKind kind);
 std::optional<EdgeKind> parseEdgeKind(std::string_view word);
 
-/// A measured T_a_b. Edges of one kind between the same two nodes differ in their source.
+/// Measured T_a_b. Edges of one kind between the same two nodes differ in their source.
 struct Edge {
   NodeRef a, b;
   EdgeKind kind = EdgeKind::Odometry;
@@ -61,10 +62,10 @@ struct Edge {
   std::string reason;
 };
 
-/// The pose graph: nodes of each session in order of time, edges in order of (a, b, kind, source), a and b by session
-/// id and stamp. A row with the same key is replaced. Values come back exact to the last bit, except that -0 becomes 0
-/// in poses. Throws UserError that names the row for poses, matrices and weights that are not finite and for
-/// quaternions not of length 1.
+/// Pose graph: nodes of each session in order of time, edges in order of (a, b, kind, source), a and b by session id
+/// and stamp. A row with the same key is replaced. Values are read back bit-exactly, except that -0 becomes 0 in poses.
+/// Throws UserError naming the row for poses, matrices and weights that are not finite and for quaternions that are not
+/// of unit length.
 class GraphStore {
  public:
   using Stamp = urban_nav_core::StampNs;
@@ -73,7 +74,7 @@ class GraphStore {
 
   virtual void put(const SessionId& session, const Node& node) = 0;
   virtual std::optional<Node> node(const NodeRef& ref) const = 0;
-  virtual std::int64_t nodes(const SessionId& session) const = 0;  ///< how many
+  virtual std::int64_t nodes(const SessionId& session) const = 0;  ///< number of nodes
   /// Calls `take` for nodes with from <= stamp <= to in order of time. Over a whole session, throws DataError at the
   /// end if a node is missing.
   virtual void forEachNode(const SessionId& session, const std::function<void(const Node&)>& take, Stamp from = kFirst,
@@ -89,8 +90,7 @@ class GraphStore {
   /// Calls `take` for all edges whose node a is in this session.
   virtual void forEachEdge(const SessionId& session_a, const std::function<void(const Edge&)>& take) const = 0;
 
-  /// Stores the evidence for the verdict on an edge, in the encoding of the stage that made it. The edge need not
-  /// exist.
+  /// Stores the evidence for the verdict on an edge, in the encoding of its stage. The edge need not exist.
   virtual void putEvidence(const Edge& edge, const std::string& bytes) = 0;
   virtual std::optional<std::string> evidence(const Edge& edge) const = 0;
 };

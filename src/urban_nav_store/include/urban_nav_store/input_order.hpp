@@ -12,7 +12,7 @@ namespace urban_nav_store {
 struct InputEvent {
   std::string stream;  ///< "stereo", a topic
   urban_nav_core::StampNs stamp = 0;
-  bool used = true;  ///< false: dropped, by its stamp or for want of time
+  bool used = true;  ///< false: dropped, because of its stamp or for lack of time
 };
 bool operator==(const InputEvent& a, const InputEvent& b);
 

@@ -9,12 +9,12 @@
 
 namespace urban_nav_store {
 
-/// A frame for place recognition and display: its image, and its features in the encoding of the stage that computed
+/// Frame for place recognition and display: its image, and its features in the encoding of the stage that computed
 /// them.
 struct StoredKeyframe {
   urban_nav_core::StampNs stamp = 0;
   std::string image;     ///< encoded (JPEG, PNG); also the thumbnail
-  std::string features;  ///< in the stage's own encoding
+  std::string features;  ///< in the encoding of the stage
 };
 bool operator==(const StoredKeyframe& a, const StoredKeyframe& b);
 
@@ -22,7 +22,7 @@ class KeyframeStore {
  public:
   virtual ~KeyframeStore() = default;
 
-  /// Adds a keyframe. One of this camera with the same stamp is replaced.
+  /// Adds a keyframe, replacing one of the same camera and stamp.
   virtual void put(const SessionId& session, const std::string& camera, const StoredKeyframe& keyframe) = 0;
 
   virtual std::optional<StoredKeyframe> get(const SessionId& session, const std::string& camera,

@@ -11,7 +11,7 @@
 
 namespace urban_nav_store {
 
-/// Writes to a store from a thread of its own: posted writes are executed in order and committed once per period.
+/// Writes to a store in a background thread: posted writes are executed in order and committed once per period.
 /// Thread-safe.
 class LiveWriter {
  public:
@@ -25,8 +25,8 @@ class LiveWriter {
     std::int64_t dropped = 0;    ///< because the queue was full
     std::int64_t refused = 0;    ///< rejected by the store, for example non-finite values
     std::size_t waiting = 0;     ///< not yet committed
-    /// Reason why the last commit failed or the last write was refused; empty otherwise. On a full disk the writes stay
-    /// in the queue and are tried again each period.
+    /// Reason why the last commit failed or the last write was refused; empty otherwise. On a full disk the writes
+    /// remain queued and are retried each period.
     std::string fault;
   };
 
@@ -35,7 +35,7 @@ class LiveWriter {
   /// Commits queued writes if possible and closes the store.
   ~LiveWriter();
 
-  /// Queues a write. Never blocks for the disk. Returns false if the queue is full. A write that throws is rolled back
+  /// Queues a write. Never blocks on the disk. Returns false if the queue is full. A write that throws is rolled back
   /// and counted as refused; a write may be called again after a failed commit.
   bool post(Write write);
   /// Blocks until all writes posted before are committed or have failed.

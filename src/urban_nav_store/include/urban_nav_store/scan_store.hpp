@@ -17,14 +17,14 @@ class ScanStore {
  public:
   virtual ~ScanStore() = default;
 
-  /// Adds a scan. One of this laser with the same stamp is replaced. Fastest in order of time: a scan from an earlier
-  /// second rewrites its block. Throws UserError for numbers that are not finite.
+  /// Adds a scan, replacing one of the same laser and stamp. Fastest in order of time: a scan from an earlier second
+  /// rewrites its block. Throws UserError for numbers that are not finite.
   virtual void put(const SessionId& session, const std::string& laser, const urban_nav_core::Scan& scan) = 0;
 
   /// Returns frame names, sorted.
   virtual std::vector<std::string> lasers(const SessionId& session) const = 0;
   virtual std::int64_t count(const SessionId& session, const std::string& laser) const = 0;
-  /// Calls `take` for scans with from <= stamp <= to in order of time, with a few blocks in memory at a time.
+  /// Calls `take` for scans with from <= stamp <= to in order of time; holds a few blocks in memory.
   virtual void forEach(const SessionId& session, const std::string& laser, urban_nav_core::StampNs from,
                        urban_nav_core::StampNs to,
                        const std::function<void(const urban_nav_core::Scan&)>& take) const = 0;

@@ -9,17 +9,17 @@
 
 namespace urban_nav_store {
 
-/// 20 hexadecimal digits. Rows of all tables refer to each other by session and stamp, never by row number: files of
-/// several computers can be merged.
+/// 20 hexadecimal digits. Rows of all tables refer to each other by session and stamp, never by row number, so that
+/// files of several computers can be merged.
 using SessionId = std::string;
 
-/// Identity of a session: known before its first measurement is processed, and equal each time and wherever the
+/// Identity of a session: known before its first measurement is processed, and the same whenever and wherever the
 /// recording is mapped.
 struct SessionOrigin {
   std::string robot;                  ///< name; may be empty
   std::string recording;              ///< live: name of the recording; offline: may be empty, the inputs identify it
   urban_nav_core::StampNs start = 0;  ///< live: of the session; offline: may be 0
-  std::string inputs;                 ///< offline: a digest of the recording; live: empty
+  std::string inputs;                 ///< offline: digest of the recording; live: empty
 };
 
 /// Returns the first 80 bits of SHA-256 (FIPS 180-4) of the origin. Deterministic: all computers of one robot compute
@@ -38,8 +38,8 @@ struct Session {
 
 bool operator==(const Session& a, const Session& b);
 
-/// Relates a session to a map. A map is named after the session whose first pose is its origin. A session without an
-/// anchor is a map of its own, in which `map` and `odom` coincide.
+/// Relation of a session to a map. A map is named after the session whose first pose is its origin. A session without
+/// an anchor is a separate map, in which `map` and `odom` coincide.
 struct Anchor {
   SessionId session;
   SessionId map;

@@ -32,7 +32,7 @@ class SessionStore {
  public:
   virtual ~SessionStore() = default;
 
-  /// Adds a session. One that exists keeps its rows; only `complete` and `name` are replaced. Throws UserError if
+  /// Adds a session. If it exists, only `complete` and `name` are replaced and its rows are kept. Throws UserError if
   /// robot, recording or start differ from the stored ones.
   virtual void put(const Session& session) = 0;
   virtual std::optional<Session> find(const SessionId& id) const = 0;
@@ -40,7 +40,7 @@ class SessionStore {
   virtual std::vector<Session> all() const = 0;
   /// Removes a session with every row that refers to it, including edges from other sessions to it.
   virtual void remove(const SessionId& id) = 0;
-  /// Removes a session except for its measurements: scans, keyframes and other tables that are declared kept_by_clear.
+  /// Removes a session except for its measurements: scans, keyframes and other tables declared kept_by_clear.
   virtual void clear(const SessionId& id) = 0;
 
   virtual void put(const Anchor& anchor) = 0;

@@ -11,7 +11,7 @@
 
 namespace urban_nav_store {
 
-/// State from which a stage resumes after a session or a bag: bytes of any length in the stage's own encoding,
+/// State from which a stage resumes after a session or a bag: bytes of any length in the encoding of the stage,
 /// compressed and stored in parts of 1 MB.
 class StageStates {
  public:

@@ -14,27 +14,27 @@
 namespace urban_nav_store {
 
 enum class Access {
-  Read,      ///< changes no byte of the file; what another program commits meanwhile is seen by the next call
-  Snapshot,  ///< as Read, but every call sees the file as it was when it was opened: for results made of many calls
+  Read,      ///< never changes the file; commits of another program are visible to the next call
+  Snapshot,  ///< as Read, but all calls see the file as of its opening: for results from many calls
   Write,     ///< opens the file or creates it; one writer at a time
-  Frozen     ///< as Snapshot; opens releases too
+  Frozen     ///< as Snapshot; also opens releases
 };
 
 /// One session store: an SQLite file in WAL mode with any number of sessions.
 ///
-/// Writes collect in a transaction that the first of them opens. commit() makes it durable, also across kill -9 and
-/// power loss: the log is flushed to disk at each commit (synchronous = FULL; NORMAL could lose the commits since the
-/// last checkpoint in a power cut). A commit costs one flush, some milliseconds: call it at known points or once a
-/// second, not per row. Closing the store or ending the process discards uncommitted writes, and so does any error
-/// while writing.
+/// Writes are collected in a transaction opened by the first of them. commit() makes it durable, also across kill -9
+/// and power loss: the log is flushed to disk at each commit (synchronous = FULL; NORMAL could lose the commits since
+/// the last checkpoint in a power failure). A commit costs one flush, some milliseconds: call it at known points or
+/// once a second, not per row. Uncommitted writes are discarded by closing the store, by the end of the process, and by
+/// any error while writing.
 ///
-/// Damage is always reported: every row has a checksum, every table counts its rows and sums their checksums by
-/// session, compared when the rows of a session are read as a whole; small files are checked completely when they are
-/// opened.
+/// Damage is always detected: every row has a checksum, and every table stores the number of rows and the sum of their
+/// checksums by session, which are compared when the rows of a session are read as a whole; small files are checked
+/// completely when they are opened.
 ///
-/// Throws UserError or DataError that name the file and the remedy: a damaged file, one of a newer version or of
-/// another program (not changed), a full disk, a path that cannot be written, a second writer, a closed store. Not
-/// thread-safe: use LiveWriter from several threads.
+/// Throws UserError or DataError naming the file and the remedy: a damaged file, one of a newer version or of another
+/// program (left unchanged), a full disk, an unwritable path, a second writer, a closed store. Not thread-safe: use
+/// LiveWriter from several threads.
 class Store {
  public:
   Store(const std::string& path, Access access);
@@ -44,8 +44,8 @@ class Store {
 
   const std::string& path() const;
 
-  /// The narrow interfaces for stages; see also table_store.hpp. They live as long as the store; after close() each
-  /// call throws UserError.
+  /// Interfaces for stages; see also table_store.hpp. They live as long as the store; after close() each call throws
+  /// UserError.
   SessionStore& sessions();
   GraphStore& graph();
   ScanStore& scans();
@@ -56,9 +56,9 @@ class Store {
   void commit();
   /// Discards uncommitted writes.
   void rollback();
-  /// Commits, and returns the space of removed rows to the file system.
+  /// Commits, and releases the space of removed rows to the file system.
   void shrink();
-  /// Discards uncommitted writes and closes the file, as the destructor does.
+  /// Discards uncommitted writes and closes the file, like the destructor.
   void close();
 
   class Implementation;
@@ -68,11 +68,11 @@ class Store {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Returns whether a file exists at `path` and begins as a session store or a release of any version does.
+/// Returns whether a file exists at `path` and begins like a session store or a release of any version.
 bool isStore(const std::string& path);
 
-/// Removes a store, damaged or not, with the files beside it. Does nothing if there is none. Throws UserError if it is
-/// in use or is not a store.
+/// Removes a store, damaged or not, with its auxiliary files. No effect if there is none. Throws UserError if it is in
+/// use or is not a store.
 void removeStore(const std::string& path);
 
 /// Returns the version of the schema that this library writes.

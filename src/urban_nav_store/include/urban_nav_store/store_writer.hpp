@@ -5,7 +5,7 @@
 
 namespace urban_nav_store {
 
-/// Returns whether a program, this one included, has a store open for writing. False if there is no store.
+/// Returns whether any program, including this one, has a store open for writing. False if there is no store.
 bool isBeingWritten(const std::string& path);
 
 }  // namespace urban_nav_store

@@ -8,10 +8,10 @@
 
 namespace urban_nav_store {
 
-/// Returns the fixes that a store has of a session, in order of time.
+/// Returns the stored fixes of a session, in order of time.
 std::vector<urban_nav_core::PositionFix> readFixes(Store& store, const SessionId& session);
 
-/// Writes fixes of a session; one with the stamp of another takes its place.
+/// Writes fixes of a session, replacing those with equal stamps.
 void writeFixes(Store& store, const SessionId& session, const std::vector<urban_nav_core::PositionFix>& fixes);
 
 }  // namespace urban_nav_store

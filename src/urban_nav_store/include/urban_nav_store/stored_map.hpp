@@ -9,17 +9,17 @@
 
 namespace urban_nav_store {
 
-/// The poses of one session of a store in the frame of its map.
+/// Poses of one session of a store in the frame of its map.
 struct StoredTrajectory {
   Session session;
-  std::string map;  ///< id of the session at whose first pose the map has its origin
+  std::string map;  ///< id of the session whose first pose is the origin of the map
   std::vector<urban_nav_core::StampedPose> T_map_base;
-  bool relaxed = false;  ///< false: odometry alone
+  bool relaxed = false;  ///< false: odometry only
 };
 
 /// Returns the trajectory of a session in its map. A node without an optimised pose moves rigidly with the previous
-/// node that has one; without any, the anchor of the session relates `map` to `odom`, and without an anchor both
-/// coincide.
+/// node that has one; if there is none, the anchor of the session relates `map` to `odom`, which coincide without an
+/// anchor.
 StoredTrajectory readTrajectory(Store& store, const Session& session);
 
 /// Returns the sessions whose id or name begins with one of `wanted`, or all if it is empty. Throws UserError for an

@@ -11,7 +11,7 @@ namespace urban_nav_store {
 
 enum class ColumnType { Text, Integer, Real, Blob };
 
-/// The value of a column of any type.
+/// Value of a column of any type.
 struct Value {
   ColumnType type = ColumnType::Integer;
   std::int64_t integer = 0;
@@ -23,20 +23,21 @@ bool operator==(const Value& a, const Value& b);
 struct Column {
   std::string name;
   ColumnType type = ColumnType::Integer;
-  int since = 1;    ///< first version of the schema that has it
-  Value initial{};  ///< of rows that are older than the column
+  int since = 1;    ///< first version of the schema with this column
+  Value initial{};  ///< value in rows older than the column
 };
 
-/// How a merge treats two rows with the same key and different content.
+/// Rule of a merge for rows with the same key and different content.
 enum class MergeRule {
   Contradiction,   ///< an error that names them
-  LatestRevision,  ///< the row with the higher number in the column `revision` stays
-  DropDifferent,   ///< neither stays, nor does any row with the same key but for its last column
-  CompleteInAll,   ///< an error, unless the rows differ in the last column alone, a flag: it holds if it holds in both
+  LatestRevision,  ///< the row with the higher number in the column `revision` is kept
+  DropDifferent,   ///< neither is kept, nor any row with the same key except for its last column
+  CompleteInAll,   ///< an error, unless the rows differ only in the last column, a flag: the merged value is their
+                   ///< logical and
 };
 
-/// Declaration of a table of the store. The schema, migration, checks, merge, dump, clear and remove are derived from
-/// it.
+/// Declaration of a table of the store, from which schema, migration, checks, merge, dump, clear and remove are
+/// derived.
 ///
 /// A row type declares its table:
 ///
@@ -53,21 +54,21 @@ enum class MergeRule {
 ///     void columns(Columns& columns);  // see Columns
 ///   };
 ///
-/// A header of such a type in include/urban_nav_store/tables/, named after it (panorama.hpp: struct Panorama), is all
-/// that a new table takes. `since` is the next version of the schema that no release has written.
+/// A new table requires only a header with such a type in include/urban_nav_store/tables/, named after it
+/// (panorama.hpp: struct Panorama). `since` is the next version of the schema, which no release has written.
 struct Table {
   std::string name;
-  std::size_t keys = 1;  ///< the first columns are the primary key; the very first is the session that a row belongs to
-  int since = 1;         ///< first version of the schema that has the table
-  bool wide = false;     ///< rows of more than some 200 bytes: stored apart from the index of their keys
-  bool kept_by_clear = false;  ///< measurements, which stay when the results of a session are cleared
-  bool of_graph = false;       ///< computed from all sessions of a graph together; a join of stores computes it anew
+  std::size_t keys = 1;        ///< the first columns are the primary key; the very first is the session of a row
+  int since = 1;               ///< first version of the schema with this table
+  bool wide = false;           ///< rows of more than about 200 bytes: stored separately from the index of their keys
+  bool kept_by_clear = false;  ///< measurements, which are kept when the results of a session are cleared
+  bool of_graph = false;       ///< computed jointly from all sessions of a graph; a join of stores computes it again
   MergeRule merge = MergeRule::Contradiction;
-  std::string other_session{};    ///< name of another column that refers to a session; rows go with that session too
+  std::string other_session{};    ///< another column that refers to a session; rows are removed with that session too
   std::vector<Column> columns{};  ///< filled in by declaredTable()
 };
 
-/// Returns the table with the columns that `visit` names.
+/// Returns the table with the columns visited by `visit`.
 Table withColumns(Table table, const std::function<void(Columns&)>& visit);
 
 /// Returns the table of a row type. Thread-safe.
@@ -77,7 +78,7 @@ const Table& declaredTable() {
   return table;
 }
 
-/// A row of any declared type, by reference.
+/// Row of any declared type, by reference.
 class AnyRow {
  public:
   template <typename Row>
@@ -91,8 +92,8 @@ class AnyRow {
   void (*visit_)(void*, Columns&);
 };
 
-/// Returns a row for writing. One function of the row both reads and writes, and hence takes it as mutable; writing
-/// does not change it.
+/// Returns a row for writing. The row's function for reading and writing takes it as mutable; writing does not change
+/// it.
 template <typename Row>
 AnyRow unchanged(const Row& row) {
   return AnyRow(const_cast<Row&>(row));

@@ -15,7 +15,7 @@ namespace urban_nav_store {
 class Store;
 class TableAccess;
 
-/// Reads and writes the rows of one table, whatever their type: what TableStore is made of.
+/// Reads and writes rows of one table of any type; the base of TableStore.
 class AnyTableStore {
  public:
   AnyTableStore(Store& store, const Table& table);
@@ -33,15 +33,14 @@ class AnyTableStore {
   const Table* table_;
 };
 
-/// The rows of one table of a store. A file that is older than the table has no rows; opening it for writing adds the
-/// table. The store must outlive this object. Throws UserError for values that are not finite, DataError for damaged
-/// files.
+/// Rows of one table of a store. A file older than the table has no rows; opening it for writing adds the table. The
+/// store must outlive this object. Throws UserError for values that are not finite, DataError for damaged files.
 template <typename Row>
 class TableStore : private AnyTableStore {
  public:
   explicit TableStore(Store& store) : AnyTableStore(store, declaredTable<Row>()) {}
 
-  /// Writes a row; one with the same key is replaced.
+  /// Writes a row, replacing one with the same key.
   void put(const Row& row) { putRow(unchanged(row)); }
 
   /// Returns the row with the key columns of `key`.
@@ -50,7 +49,7 @@ class TableStore : private AnyTableStore {
     return key;
   }
 
-  /// Removes the row with the key columns of `key`, if there is one.
+  /// Removes the row with the key columns of `key`, if it exists.
   void remove(const Row& key) { removeRow(unchanged(key)); }
 
   /// Calls `visit` for all rows of a session in the order of their keys. Throws DataError at the end if a row is
@@ -60,8 +59,8 @@ class TableStore : private AnyTableStore {
     forEachRow(session, AnyRow(row), [&] { visit(row); });
   }
 
-  /// Calls `visit` for the rows whose last key, a whole number, is in from...to, and whose other keys are those of
-  /// `key`, in ascending order.
+  /// Calls `visit` in ascending order for the rows whose last key, an integer, is in from...to and whose other keys are
+  /// those of `key`.
   void forEachBetween(Row key, std::int64_t from, std::int64_t to, const std::function<void(const Row&)>& visit) const {
     forEachRowBetween(AnyRow(key), from, to, [&] { visit(key); });
   }

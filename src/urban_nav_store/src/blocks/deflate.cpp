@@ -14,7 +14,7 @@ namespace urban_nav_store {
 namespace {
 constexpr int kLevel = 3;
 constexpr std::size_t kLengthBytes = sizeof(std::uint64_t);
-constexpr std::size_t kMostGain = 1100;  // deflate cannot shrink by more than 1032 (zlib's technical notes)
+constexpr std::size_t kMostGain = 1100;  // the largest compression ratio of deflate is 1032 (zlib's technical notes)
 }  // namespace
 
 std::string deflated(std::string_view bytes) {
@@ -24,7 +24,7 @@ std::string deflated(std::string_view bytes) {
   result.resize(kLengthBytes + size);
   const int code = compress2(reinterpret_cast<Bytef*>(result.data() + kLengthBytes), &size,
                              reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), kLevel);
-  if (code != Z_OK) throw std::bad_alloc();  // the only other way in which compress2 can end
+  if (code != Z_OK) throw std::bad_alloc();  // the only possible error of compress2
   result.resize(kLengthBytes + size);
   return result;
 }

@@ -45,7 +45,7 @@ std::string DepthView::pack(const Samples& samples) {
 
 DepthView::Samples DepthView::samples() const {
   const auto refuse = [&] {
-    throw urban_nav_core::DataError("depth_view", std::to_string(packed.size()) + " bytes are no depth image", "");
+    throw urban_nav_core::DataError("depth_view", std::to_string(packed.size()) + " bytes are not a depth image", "");
   };
   const std::optional<std::string> bytes = inflated(packed, kMostDepthBytes);
   if (!bytes) refuse();

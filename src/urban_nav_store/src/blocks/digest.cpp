@@ -55,7 +55,8 @@ std::string sha256(std::string_view bytes) {
   const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
   std::size_t done = 0;
   for (; done + kBlock <= bytes.size(); done += kBlock) absorb(state, data + done);
-  std::array<unsigned char, 2 * kBlock> last{};  // the rest, a one bit, zeros, the length in bits (section 5.1.1)
+  std::array<unsigned char, 2 * kBlock> last{};  // remaining bytes, a one bit, zeros, the length in bits (section
+                                                 // 5.1.1)
   const std::size_t rest = bytes.size() - done, size = rest + 9 <= kBlock ? kBlock : 2 * kBlock;
   for (std::size_t i = 0; i < rest; ++i) last[i] = data[done + i];
   last[rest] = 0x80;

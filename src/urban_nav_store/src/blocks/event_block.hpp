@@ -10,9 +10,9 @@
 
 namespace urban_nav_store {
 
-/// Input events as compressed bytes.
+/// Encodes input events as compressed bytes.
 std::string packEvents(const std::vector<InputEvent>& events);
-/// Empty where the bytes are no such thing.
+/// Inverse of packEvents(); empty for other bytes.
 std::optional<std::vector<InputEvent>> unpackEvents(std::string_view bytes);
 
 }  // namespace urban_nav_store

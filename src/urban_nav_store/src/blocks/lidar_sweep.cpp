@@ -66,7 +66,7 @@ std::string LidarSweep::pack(const Sweep& sweep) {
 
 std::vector<Scan> LidarSweep::rings() const {
   const auto refuse = [&] {
-    throw urban_nav_core::DataError("lidar_sweep", std::to_string(packed.size()) + " bytes are no sweep", "");
+    throw urban_nav_core::DataError("lidar_sweep", std::to_string(packed.size()) + " bytes are not a sweep", "");
   };
   const std::optional<std::string> bytes = inflated(packed, kMostSweepBytes);
   if (!bytes) refuse();

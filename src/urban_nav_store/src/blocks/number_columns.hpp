@@ -8,11 +8,11 @@
 
 namespace urban_nav_store {
 
-/// Appends numbers as columns of bytes of equal weight, the lowest first. Each number is written as its difference from
-/// the one before it, modulo 2^(8 bytes): smooth columns compress well.
+/// Appends numbers byte by byte in columns, least significant first. Each number is replaced by its difference to the
+/// previous one, modulo 2^(8 bytes), so that smooth columns compress well.
 void appendColumn(std::string& bytes, const std::vector<std::uint32_t>& values, int width);
 
-/// Returns `count` numbers of appendColumn() and removes their bytes. Requires count * width bytes.
+/// Inverse of appendColumn() for `count` numbers, whose bytes are removed. Requires count * width bytes.
 std::vector<std::uint32_t> takeColumn(std::string_view& bytes, std::size_t count, int width);
 
 }  // namespace urban_nav_store

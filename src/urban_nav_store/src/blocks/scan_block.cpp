@@ -33,7 +33,7 @@ std::string packScans(const std::vector<Scan>& scans) {
     appendInteger(bytes, asUnsigned(scan.stamp));
     appendInteger32(bytes, static_cast<std::uint32_t>(scan.beams.size()));
   }
-  for (const Scan& scan : scans) {  // from beam to beam the same step, more or less
+  for (const Scan& scan : scans) {  // nearly constant step between beams
     std::uint64_t last = asUnsigned(scan.stamp);
     for (const Beam& beam : scan.beams) {
       appendInteger(bytes, asUnsigned(beam.stamp) - last);

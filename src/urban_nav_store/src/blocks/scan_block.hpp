@@ -10,9 +10,9 @@
 
 namespace urban_nav_store {
 
-/// Scans as compressed bytes, column by column, so that the directions, which repeat from scan to scan, cost nothing.
+/// Encodes scans as compressed bytes, by column, so that directions repeated in all scans take hardly any space.
 std::string packScans(const std::vector<urban_nav_core::Scan>& scans);
-/// Empty where the bytes are no such thing, or hold a number that is not finite.
+/// Inverse of packScans(); empty for other bytes or numbers that are not finite.
 std::optional<std::vector<urban_nav_core::Scan>> unpackScans(std::string_view bytes);
 
 }  // namespace urban_nav_store

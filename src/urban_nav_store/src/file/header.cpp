@@ -66,15 +66,15 @@ void refuseOtherFiles(const std::string& path, Releases releases) {
                       "is a release, which is read by map --localise, info, export, join --onto and release --diff",
                       "a session store of urban_nav");
     case FileKind::NewerStore:
-      throw UserError(path, "was written by a newer urban_nav, and was left as it is",
+      throw UserError(path, "was written by a newer urban_nav, and was not changed",
                       "schema " + std::to_string(schemaVersion()) + " or older; or a newer urban_nav");
     case FileKind::OtherSqlite:
-      throw UserError(path, "is another program's SQLite file, and was left as it is",
-                      "a session store of urban_nav, or a name where there is no file yet");
+      throw UserError(path, "is another program's SQLite file, and was not changed",
+                      "a session store of urban_nav, or the path of a new file");
     case FileKind::Other: break;
   }
-  throw UserError(path, "is no session store, or its beginning is damaged; it was left as it is",
-                  "a session store of urban_nav, or a name where there is no file yet");
+  throw UserError(path, "is not a session store, or its header is damaged; it was not changed",
+                  "a session store of urban_nav, or the path of a new file");
 }
 
 }  // namespace urban_nav_store

@@ -5,23 +5,23 @@
 
 namespace urban_nav_store {
 
-/// What the first bytes of a file say, read without SQLite, which might change what it opens.
+/// Kind of a file according to its first bytes, read without SQLite, which might modify the file.
 enum class FileKind {
-  Absent,  ///< nothing there, or an empty file
+  Absent,  ///< no file, or an empty one
   Store,
   NewerStore,
-  Release,      ///< a store that is frozen (release.hpp)
-  OtherSqlite,  ///< a database of another program
+  Release,      ///< frozen store (release.hpp)
+  OtherSqlite,  ///< database of another program
   Other,
 };
 FileKind fileKind(const std::string& path);
 
-/// The path itself, or what it points to: SQLite names the files beside a store after that.
+/// Returns the path with symbolic links resolved: SQLite derives the names of auxiliary files from that.
 std::string resolved(const std::string& path);
 
 enum class Releases { Refused, Allowed };
-/// UserError where `path` is neither a store that this version can read nor absent; a release is one where they are
-/// allowed.
+/// Throws UserError unless `path` is a store readable by this version or does not exist. `releases`: whether a release
+/// is accepted.
 void refuseOtherFiles(const std::string& path, Releases releases = Releases::Refused);
 
 }  // namespace urban_nav_store

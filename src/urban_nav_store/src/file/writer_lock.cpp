@@ -19,7 +19,7 @@ namespace {
 
 std::string makeLockPath(const std::string& path) { return path + "-lock"; }
 
-/// Is what lies at the path still what was opened? A holder removes the file before it lets go.
+/// Returns whether the file at the path is the one that was opened. A holder removes the file before it unlocks.
 bool isStillThere(const std::string& path, int descriptor) {
   struct stat opened {
   }, there{};

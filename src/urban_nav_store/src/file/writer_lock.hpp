@@ -5,11 +5,11 @@
 
 namespace urban_nav_store {
 
-/// The right to write a store: one holder in all processes and within each, by a lock on FILE-lock. Ends with the
-/// process, however that ends. SQLite's own locks would keep readers out for as long.
+/// Exclusive right to write a store, among all processes and within each, by a lock on FILE-lock. Released when the
+/// process ends in any way. SQLite's own locks would block readers for as long.
 class WriterLock {
  public:
-  /// UserError where another holds it.
+  /// Throws UserError if another program or object holds the lock.
   explicit WriterLock(const std::string& path);
   ~WriterLock();
   WriterLock(const WriterLock&) = delete;

@@ -67,7 +67,7 @@ RowReader::RowReader(Connection& connection, const Table& table, const std::stri
 void RowReader::verify() {
   if (column_ == 0) return;
   const std::int64_t stored = statement_.integer(column_);
-  if (stored != checksum_.value()) damaged("its checksum does not fit");
+  if (stored != checksum_.value()) damaged("its checksum does not match");
   ++rows_;
   sum_ += stored;
 }
@@ -116,7 +116,7 @@ void compareWithTally(Connection& connection, const Table& table, const std::str
   const std::int64_t count = known ? statement.integer(0) : 0;
   if (count != rows || (known ? statement.integer(1) : 0) != sum)
     connection.damaged("in table " + table.name + ", session " + session + " has " + std::to_string(rows) +
-                       " rows that do not add up to the " + std::to_string(count) + " written");
+                       " rows that do not match the " + std::to_string(count) + " written");
 }
 
 }  // namespace

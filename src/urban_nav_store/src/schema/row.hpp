@@ -10,8 +10,8 @@
 
 namespace urban_nav_store {
 
-/// The checksum of a row: CRC-32 (ISO 3309) of its columns in their order, each with its type and length, so that no
-/// byte can move from one column to the next unseen.
+/// Checksum of a row: CRC-32 (ISO 3309) of its columns in order, each with type and length, so that bytes moved between
+/// columns are detected.
 class RowChecksum {
  public:
   void text(std::string_view value);
@@ -37,7 +37,7 @@ class RowWriter {
 
   RowWriter& text(std::string_view value);
   RowWriter& integer(std::int64_t value);
-  RowWriter& real(double value);  ///< -0 becomes 0, which is how SQLite keeps it
+  RowWriter& real(double value);  ///< -0 becomes 0, as SQLite stores it
   RowWriter& blob(std::string_view value);
   void write();
 
@@ -53,18 +53,19 @@ class RowReader {
   /// `condition`: empty or "WHERE ...". The table must outlive the reader.
   RowReader(Connection& connection, const Table& table, const std::string& condition);
 
-  /// For the parameters of the condition.
+  /// Returns the statement, for binding the parameters of the condition.
   Statement& statement() { return statement_; }
-  /// False at the end. Every column of the row before must have been read: its checksum is compared here.
+  /// Advances to the next row; false at the end. Compares the checksum of the previous row, all of whose columns must
+  /// have been read.
   bool next();
 
-  /// Views live until the next call of next().
+  /// Returned views are valid until next().
   std::string_view text();
   std::int64_t integer();
   double real();
   std::string_view blob();
 
-  /// Throws DataError: the values read so far of this row are invalid.
+  /// Throws DataError: the values of this row read so far are invalid.
   [[noreturn]] void damaged(const std::string& what) const;
 
   std::int64_t rows() const { return rows_; }
@@ -82,21 +83,21 @@ class RowReader {
   std::int64_t rows_ = 0, sum_ = 0;
 };
 
-/// Throws DataError if `reader`, at its end, has not seen exactly the rows that the tally counts for this session.
+/// Throws DataError unless `reader`, at its end, has read exactly the rows that the tally counts for this session.
 void verifyTally(const RowReader& reader, const std::string& session);
-/// Throws DataError if the rows of a session are not those that the tally counts, by their stored checksums alone: for
-/// tables that are read row by row.
+/// Throws DataError unless the rows of a session are those counted by the tally, according to their stored checksums;
+/// for tables that are read row by row.
 void verifyTally(Connection& connection, const Table& table, const std::string& session);
 
-/// Throws DataError if the rows of any session are not those that the tally counts.
+/// Throws DataError unless the rows of all sessions are those counted by the tally.
 void verifyTally(Connection& connection, const Table& table);
 
-/// A row of any table, for code that treats all tables alike.
+/// Row of any table, for generic code.
 using Row = std::vector<Value>;
 /// Reads the current row of `reader`.
 Row readRow(RowReader& reader);
 void writeRow(RowWriter& writer, const Row& row);
-/// Returns a row of a table as it was with fewer columns with the initial values of the others.
+/// Returns a row of an earlier version of a table with the initial values of the added columns.
 Row completed(const Row& row, const Table& before, const Table& after);
 /// Returns the key of a row for errors: "session=3f..., stamp_ns=12".
 std::string printKey(const Table& table, const Row& row);

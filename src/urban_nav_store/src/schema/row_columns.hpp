@@ -8,7 +8,7 @@
 
 namespace urban_nav_store {
 
-/// Refuses values that are not finite with a UserError that names file, table and key.
+/// Throws UserError naming file, table and key for values that are not finite.
 class CheckingColumns : public Columns {
  public:
   CheckingColumns(const Connection& connection, const Table& table) : connection_(connection), table_(table) {}
@@ -41,7 +41,7 @@ class WritingColumns : public Columns {
   RowWriter& writer_;
 };
 
-/// Reads the current row of a reader. Columns that the reader's table lacks keep their values.
+/// Reads the current row of a reader. Columns missing in the reader's table keep their values.
 class ReadingColumns : public Columns {
  public:
   explicit ReadingColumns(RowReader& reader) : reader_(reader) {}
@@ -60,8 +60,8 @@ class ReadingColumns : public Columns {
   std::size_t next_ = 0;
 };
 
-/// Binds copies of the first key columns of a row to the parameters of a statement. Must live until the statement is
-/// done.
+/// Binds copies of the leading key columns of a row to the parameters of a statement. Must outlive the execution of the
+/// statement.
 class KeyColumns : public Columns {
  public:
   KeyColumns(Statement& statement, std::size_t keys) : statement_(statement), keys_(keys) {}

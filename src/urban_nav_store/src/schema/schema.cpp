@@ -39,9 +39,9 @@ std::string keyNames(const Table& table) {
   return text;
 }
 
-/// Triggers keep rows and the sum of checksums of each session, so that a page that was lost with its rows is missed.
-/// Wide rows are stored by row number with an index, narrow ones in the index itself: SQLite's own advice for tables
-/// without row numbers.
+/// Triggers maintain the number of rows and the sum of checksums of each session, so that a lost page is detected with
+/// its rows. Wide rows are stored by row number with an index, narrow ones in the index itself, as SQLite recommends
+/// for tables without row numbers.
 SqlObjects sqlObjects(const Table& table) {
   const std::string name = table.name, session = table.columns.front().name;
   std::string columns;
@@ -75,7 +75,7 @@ void createTable(Connection& connection, const Table& table) {
   for (const auto& [name, sql] : sqlObjects(table)) connection.execute(sql);
 }
 
-/// Writes the rows of a table anew, with the columns that it has not had so far.
+/// Rewrites the rows of a table with the added columns.
 void addColumns(Connection& connection, const Table& before, const Table& after) {
   const std::string name = before.name;
   verifyTally(connection, before);
@@ -144,21 +144,22 @@ void migrate(Connection& connection, const Tables& tables) {
 
 void check(Connection& connection, const Tables& tables) {
   if (const std::int64_t id = connection.integer("PRAGMA application_id"); id != kApplicationId && id != kReleaseId)
-    throw UserError(connection.name(), "is another program's SQLite file, and was left as it is",
-                    "a session store of urban_nav, or a name where there is no file yet");
+    throw UserError(connection.name(), "is another program's SQLite file, and was not changed",
+                    "a session store of urban_nav, or the path of a new file");
   const int found_version = version(connection), latest = latestVersion(tables);
   if (found_version > latest)
     throw UserError(
         connection.name(),
-        "was written by a newer urban_nav (schema " + std::to_string(found_version) + "), and was left as it is",
+        "was written by a newer urban_nav (schema " + std::to_string(found_version) + "), and was not changed",
         "schema " + std::to_string(latest) + " or older; or a newer urban_nav");
-  if (found_version < 1) connection.damaged("schema " + std::to_string(found_version) + " has never been written");
+  if (found_version < 1) connection.damaged("schema " + std::to_string(found_version) + " does not exist");
   std::map<std::string, std::string> found;
   Statement statement = connection.prepare("SELECT name,sql FROM sqlite_master WHERE sql IS NOT NULL");
   while (statement.step()) found[std::string(statement.text(0))] = statement.text(1);
   for (const auto& [name, text] : sqlObjects(tables, found_version)) {
     const auto object = found.find(name);
-    if (object == found.end() || object->second != text) connection.damaged("table " + name + " is not as it was made");
+    if (object == found.end() || object->second != text)
+      connection.damaged("table " + name + " has a different schema");
   }
 }
 

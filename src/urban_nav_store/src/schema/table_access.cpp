@@ -19,7 +19,7 @@ void readInto(const AnyRow& row, RowReader& reader) {
 
 std::string lastKeyName(const Table& table) { return table.columns[table.keys - 1].name; }
 
-/// "WHERE session=? AND camera=?": all key columns but the last.
+/// Returns "WHERE session=? AND camera=?": all key columns but the last.
 std::string whereOthers(const Table& table) { return "WHERE " + keySql(table, table.keys - 1); }
 
 }  // namespace

@@ -14,8 +14,8 @@
 
 namespace urban_nav_store {
 
-/// Reads and writes rows of all tables of one connection. A file that is older than a table has no rows of it; columns
-/// that are younger than the file have their initial values. Not thread-safe.
+/// Reads and writes rows of all tables of one connection. A file older than a table has no rows of it; columns newer
+/// than the file have their initial values. Not thread-safe.
 class TableAccess {
  public:
   /// The connection must outlive this object.
@@ -25,9 +25,9 @@ class TableAccess {
   /// Returns false in a file that is older than the table.
   bool has(const Table& table);
 
-  /// Writes a row; one with the same key is replaced. Throws UserError that names the row if a value is not finite.
+  /// Writes a row, replacing one with the same key. Throws UserError naming the row if a value is not finite.
   void put(const Table& table, const AnyRow& row);
-  /// Reads the row with the key columns of `row` into it. Returns false, and leaves `row` as it is, if there is none.
+  /// Reads the row with the key columns of `row` into it. Returns false, without effect, if there is none.
   bool find(const Table& table, const AnyRow& row);
   /// Reads the row with the greatest last key among those with the other key columns of `row`.
   bool findLast(const Table& table, const AnyRow& row);
@@ -37,38 +37,37 @@ class TableAccess {
   /// Calls `visit` after reading each row of a session into `row`, in the order of the keys. Throws DataError at the
   /// end if a row is missing.
   void forEach(const Table& table, const SessionId& session, const AnyRow& row, const std::function<void()>& visit);
-  /// Calls `visit` after reading each row whose last key, a whole number, is in from...to, and whose other keys are
-  /// those of `row`.
+  /// Calls `visit` after reading each row whose last key, an integer, is in from...to and whose other keys are those of
+  /// `row`.
   void forEachBetween(const Table& table, const AnyRow& row, std::int64_t from, std::int64_t to,
                       const std::function<void()>& visit);
   /// Calls `visit` after reading each row of the table.
   void forEachRow(const Table& table, const AnyRow& row, const std::function<void()>& visit);
 
-  /// Returns the different values of the second key column, a text, in a session; sorted.
+  /// Returns the distinct values of the second key column, a text, in a session; sorted.
   std::vector<std::string> secondKeys(const Table& table, const SessionId& session);
-  /// Returns the values of the last key column, a whole number, of the rows with the other key columns of `row`;
-  /// ascending.
+  /// Returns the values of the last key column, an integer, of the rows with the other key columns of `row`; ascending.
   std::vector<std::int64_t> lastKeys(const Table& table, const AnyRow& row);
   /// Returns the number of rows that a session has according to the tally.
   std::int64_t count(const Table& table, const SessionId& session);
   /// Returns the number of sessions that have rows of the table according to the tally.
   std::size_t sessions(const Table& table);
 
-  /// Removes the rows whose column `column` is the session.
+  /// Removes the rows whose column `column` refers to the session.
   void removeSession(const Table& table, const std::string& column, const SessionId& session);
-  /// Removes the entries of the tally that count no rows of a session.
+  /// Removes the entries of the tally without rows of a session.
   void forgetEmpty(const SessionId& session);
 
-  /// Throws DataError if a session's rows are not those that were written. Looks once for each session: what is written
-  /// through this object later cannot be lost unseen.
+  /// Throws DataError if a session's rows are not those that were written. Verifies each session once: later writes
+  /// through this object cannot be lost undetected.
   void verifyOnce(const Table& table, const SessionId& session);
 
  private:
-  /// The table with the columns that the file has.
+  /// Returns the table with the columns of the file.
   const Table& stored(const Table& table);
 
   Connection& connection_;
-  int version_ = 0;                       // of the file; 0: not read yet
+  int version_ = 0;                       // of the file; 0: unknown
   std::map<std::string, Table> earlier_;  // tables with fewer columns in this file, by name
   std::set<std::pair<std::string, SessionId>> verified_;
 };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kPatience = 5000;  // ms to wait for another process that recovers the log or closes its connection
 
-/// A path as SQLite's URIs want it.
+/// Returns a path in the syntax of SQLite's URIs.
 std::string toUri(const std::string& path) {
   std::string uri = "file:";
   for (const char c : path) {
@@ -28,7 +28,7 @@ std::string toUri(const std::string& path) {
   return uri;
 }
 
-/// errno of the last call that failed on the file or its log.
+/// Returns errno of the last failed system call on the file or its log.
 int findSystemError(sqlite3* handle) {
   if (const int error = sqlite3_system_errno(handle); error != 0) return error;
   int error = 0;
@@ -54,7 +54,7 @@ int toFlags(Connection::Mode mode) {
 
 Connection::Connection(const std::string& path, Mode mode, std::string name)
     : name_(name.empty() ? path : std::move(name)), writes_(mode == Mode::Write || mode == Mode::Create) {
-  // A relative path that begins with a slash would be taken for a host in a URI, and "//" for one too.
+  // A relative path that begins with a slash, or with "//", would be parsed as a host of the URI.
   const std::string uri =
       toUri(path.rfind("//", 0) == 0 ? path.substr(1) : path) + (mode == Mode::ReadFrozen ? "?immutable=1" : "");
   const int code = sqlite3_open_v2(uri.c_str(), &handle_, toFlags(mode), nullptr);
@@ -63,7 +63,7 @@ Connection::Connection(const std::string& path, Mode mode, std::string name)
     sqlite3_extended_result_codes(handle_, 1);
     sqlite3_busy_timeout(handle_, kPatience);
     sqlite3_db_config(handle_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
-    // A damaged page is to be an error where it is read, and no function is to be called out of a damaged schema.
+    // A damaged page must raise an error when it is read, and a damaged schema must not call functions.
     execute("PRAGMA cell_size_check=ON; PRAGMA trusted_schema=OFF; PRAGMA temp_store=MEMORY; PRAGMA mmap_size=0");
   } catch (...) {
     sqlite3_close_v2(handle_);

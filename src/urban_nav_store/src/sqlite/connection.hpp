@@ -11,17 +11,17 @@ struct sqlite3;
 
 namespace urban_nav_store {
 
-/// One connection to one SQLite file. Whatever SQLite reports becomes a UserError or DataError that names the file
-/// (errors.hpp). Not thread-safe.
+/// Connection to an SQLite file. Errors of SQLite become UserError or DataError naming the file (errors.hpp). Not
+/// thread-safe.
 class Connection {
  public:
   enum class Mode {
-    Read,        ///< with what stands in the log beside the file; a writer may be at work
-    ReadFrozen,  ///< the file alone, nothing beside it is looked at or made
+    Read,        ///< with the content of the log; a writer may be active
+    ReadFrozen,  ///< the file only; auxiliary files are neither read nor created
     Write,
     Create,
   };
-  /// `name`: the file in errors, where it is made under another one.
+  /// `name`: file named in errors, if it is created under another one.
   Connection(const std::string& path, Mode mode, std::string name = "");
   ~Connection();
   Connection(const Connection&) = delete;
@@ -29,15 +29,15 @@ class Connection {
 
   const std::string& name() const { return name_; }
 
-  /// Runs statements that give no rows.
+  /// Executes statements that return no rows.
   void execute(const std::string& sql);
-  /// A statement of one's own, to iterate with.
+  /// Returns a separate statement, for iteration.
   Statement prepare(const std::string& sql);
-  /// A statement that is kept for the next call with the same text: for one row at a time.
+  /// Returns a statement that is cached by its text, for single rows.
   Statement& cached(const std::string& sql);
   std::int64_t integer(const std::string& sql);
 
-  /// Opens a transaction if none is open. UserError where the store was opened for reading.
+  /// Opens a transaction if none is open. Throws UserError if the store was opened for reading.
   void beginWriting();
   bool inTransaction() const;
   bool writes() const { return writes_; }
@@ -46,13 +46,13 @@ class Connection {
   /// Ends the transaction of a reader, if one is open; never throws.
   void endReading() noexcept;
 
-  /// Closes the file; everything after it is a UserError.
+  /// Closes the file; any later call throws UserError.
   void close();
 
   sqlite3* handle() const;
-  /// Takes back what was not committed, and throws what `code` stands for.
+  /// Rolls back uncommitted writes and throws the error of `code`.
   [[noreturn]] void fail(int code) const;
-  /// DataError: the file is damaged, `what` says where.
+  /// Throws DataError: the file is damaged; `what` states where.
   [[noreturn]] void damaged(const std::string& what) const;
 
  private:

@@ -5,9 +5,9 @@
 
 namespace urban_nav_store {
 
-/// Throws what an SQLite result code (extended or not) means to the person who can act: UserError for a mistake in the
-/// call (a place that cannot be written, a file in use), DataError for what the file or the disk did. `system_error`:
-/// errno of the call that failed, 0 if none did; `message`: SQLite's own words, for what has none here.
+/// Throws the error of an SQLite result code (extended or not): UserError for an error of the caller (an unwritable
+/// path, a file in use), DataError for an error of the file or the disk. `system_error`: errno of the failed call, 0 if
+/// none failed. `message`: SQLite's message, used for other codes.
 [[noreturn]] void throwError(const std::string& file, int code, int system_error, const std::string& message);
 
 [[noreturn]] void throwDamaged(const std::string& file, const std::string& what);

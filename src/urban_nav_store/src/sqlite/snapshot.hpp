@@ -5,11 +5,11 @@
 
 namespace urban_nav_store {
 
-/// One state of the file for all reads in a scope, whatever another program commits meanwhile.
+/// Provides one state of the file for all reads in a scope, independent of commits of other programs.
 ///
-/// Without it two statements see two states: rows of the one and the tally of the other do not add up, and a sound file
-/// appears to be damaged. Does nothing where a transaction is open already, nor for a connection that writes: it is the
-/// only writer. Rows that are still being read when the scope ends are read to their end in the same state.
+/// Without it, two statements may read different states: rows of one and the tally of the other do not match, and an
+/// intact file appears damaged. No effect if a transaction is open, nor for a connection that writes, since it is the
+/// only writer. Rows still being read at the end of the scope are read to their end in the same state.
 class Snapshot {
  public:
   explicit Snapshot(Connection& connection);
@@ -18,7 +18,7 @@ class Snapshot {
   Snapshot& operator=(const Snapshot&) = delete;
 
  private:
-  Connection* connection_;  // null where there is nothing to end
+  Connection* connection_;  // null if there is no transaction to end
 };
 
 }  // namespace urban_nav_store

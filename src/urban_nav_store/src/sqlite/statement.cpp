@@ -43,7 +43,7 @@ void Statement::bindBlob(int parameter, std::string_view bytes) {
 }
 
 bool Statement::step() {
-  connection_->handle();  // or it is closed
+  connection_->handle();  // throws if it is closed
   const int code = sqlite3_step(statement_);
   if (code == SQLITE_ROW) return true;
   sqlite3_reset(statement_);

@@ -25,12 +25,12 @@ class Statement {
   void bind(int parameter, double value);
   void bindBlob(int parameter, std::string_view bytes);
 
-  /// True: there is a row. At the end the statement is ready to be used again.
+  /// Advances to the next row; false at the end, after which the statement can be executed again.
   bool step();
   void reset();
 
   int columns() const;
-  /// DataError (a damaged file) where the column is of another type.
+  /// Throws DataError (a damaged file) if the column has another type.
   std::string_view text(int column) const;
   std::string_view blob(int column) const;
   std::int64_t integer(int column) const;
@@ -45,7 +45,7 @@ class Statement {
   sqlite3_stmt* statement_ = nullptr;
 };
 
-/// Resets a cached statement when a scope ends, however it ends.
+/// Resets a cached statement at the end of a scope.
 class ResetAtEnd {
  public:
   explicit ResetAtEnd(Statement& statement) : statement_(statement) {}

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kForcesName = "specific forces of a session";
 constexpr std::uint32_t kForcesVersion = 2;
-/// Version 1 was not sealed: its number in four bytes, then the content as it is in version 2.
+/// Version 1 was not sealed: its number in four bytes, then the content of version 2.
 constexpr std::string_view kForcesHead1("\1\0\0\0", 4);
 
 /// Returns the content of the bytes of any version. Throws DataError if they are damaged.

@@ -23,7 +23,7 @@ std::string edgeName(const Edge& edge) {
          nodeName(edge.b.session, edge.b.stamp);
 }
 
-/// Reads the rows of a session within stamps; only a whole session can be verified.
+/// Reads the rows of a session in an interval of stamps; only a whole session can be verified.
 template <typename Row>
 void readBetween(TableAccess& tables, Row& row, StampNs from, StampNs to, const std::function<void()>& visit) {
   const Table& table = declaredTable<Row>();

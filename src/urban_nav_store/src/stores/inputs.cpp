@@ -8,7 +8,7 @@ namespace urban_nav_store {
 
 namespace {
 
-constexpr std::size_t kEvents = 4096;  // in a block: some ten seconds of all sensors
+constexpr std::size_t kEvents = 4096;  // per block: about ten seconds of all sensors
 
 std::vector<InputEvent> unpackEventBlock(const InputBlockRow& row, const Connection& connection) {
   std::optional<std::vector<InputEvent>> events = unpackEvents(row.data);

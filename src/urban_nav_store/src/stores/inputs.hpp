@@ -9,8 +9,8 @@
 
 namespace urban_nav_store {
 
-/// Events in blocks of a fixed number; the last block of a session stays in memory and replaces the one in the file
-/// when a commit is near.
+/// Events in blocks of a fixed number; the last block of a session is kept in memory and replaces that of the file
+/// before a commit.
 class SqliteInputOrder : public InputOrder {
  public:
   explicit SqliteInputOrder(TableAccess& tables) : tables_(tables) {}

@@ -20,9 +20,9 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr StampNs kSecond = 1'000'000'000;
-constexpr std::size_t kBlocksAtOnce = 8;  // that are unpacked, on all threads
+constexpr std::size_t kBlocksAtOnce = 8;  // unpacked at a time, on all threads
 
-/// The second that a stamp is in, also before 1970.
+/// Returns the second of a stamp, also before 1970.
 std::int64_t wholeSecond(StampNs stamp) { return stamp / kSecond - (stamp % kSecond < 0 ? 1 : 0); }
 
 std::vector<Scan> intact(std::optional<std::vector<Scan>> scans, const ScanBlockRow& row,

@@ -9,8 +9,8 @@
 
 namespace urban_nav_store {
 
-/// The block of each laser that is being filled stays in memory until another second begins or a commit is near, and
-/// replaces the one in the file then.
+/// The open block of each laser is kept in memory until another second begins or before a commit, and then replaces
+/// that of the file.
 class SqliteScanStore : public ScanStore {
  public:
   explicit SqliteScanStore(TableAccess& tables) : tables_(tables) {}
@@ -21,9 +21,9 @@ class SqliteScanStore : public ScanStore {
   void forEach(const SessionId& session, const std::string& laser, urban_nav_core::StampNs from,
                urban_nav_core::StampNs to, const std::function<void(const urban_nav_core::Scan&)>& take) const override;
 
-  /// Before a commit: what is in memory goes into the transaction.
+  /// Writes buffered blocks into the transaction, before a commit.
   void flush() const;
-  /// After a rollback.
+  /// Discards buffered blocks, after a rollback.
   void forget() { open_.clear(); }
 
  private:

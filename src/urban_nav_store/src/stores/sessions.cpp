@@ -47,7 +47,7 @@ void SqliteSessionStore::put(const Session& session) {
   if (const std::optional<Session> there = find(session.id)) {
     if (there->robot != session.robot || there->recording != session.recording || there->start != session.start)
       throw UserError(tables_.connection().name(),
-                      "session " + session.id + " is another one already (" + there->name + ")", "");
+                      "session " + session.id + " already exists with another origin (" + there->name + ")", "");
   }
   tables_.put(declaredTable<SessionRow>(), unchanged(SessionRow{session}));
 }
@@ -63,7 +63,7 @@ std::vector<Session> SqliteSessionStore::all() const {
   SessionRow row;
   tables_.forEachRow(declaredTable<SessionRow>(), AnyRow(row), [&] { sessions.push_back(row.session); });
   if (tables_.sessions(declaredTable<SessionRow>()) != sessions.size())
-    tables_.connection().damaged("in table session, there are fewer sessions than were written");
+    tables_.connection().damaged("in table session, fewer sessions than were written");
   std::sort(sessions.begin(), sessions.end(),
             [](const Session& a, const Session& b) { return a.start != b.start ? a.start < b.start : a.id < b.id; });
   return sessions;

@@ -10,7 +10,7 @@ namespace urban_nav_store {
 
 class SqliteSessionStore : public SessionStore {
  public:
-  /// `settle` writes and releases the rows that other stores hold in memory; called before rows are removed.
+  /// `settle` writes and releases the rows buffered by other stores; called before rows are removed.
   SqliteSessionStore(TableAccess& tables, std::function<void()> settle) : tables_(tables), settle_(std::move(settle)) {}
 
   void put(const Session& session) override;
@@ -28,8 +28,7 @@ class SqliteSessionStore : public SessionStore {
   std::vector<Extrinsic> extrinsics(const SessionId& id) const override;
 
  private:
-  /// Removes the rows of a session from the tables that `goes` selects, and the rows of other sessions that refer to
-  /// it.
+  /// Removes the rows of a session from the tables selected by `goes`, and the rows of other sessions that refer to it.
   void removeRows(const SessionId& id, const std::function<bool(const Table&)>& goes);
 
   TableAccess& tables_;

@@ -40,7 +40,7 @@ std::optional<std::string> SqliteStageStates::get(const SessionId& session, cons
                            if (row.part != next++ || !unpacked) damaged("cannot be unpacked");
                            bytes += *unpacked;
                          });
-  if (next != row.parts) damaged("has lost a part");
+  if (next != row.parts) damaged("is incomplete");
   if (next == 0) return std::nullopt;
   return bytes;
 }

@@ -14,7 +14,7 @@ namespace urban_nav_store {
 namespace {
 
 constexpr std::size_t kFewestDigits = 16, kMostDigits = 64;
-constexpr std::size_t kShown = 80;  // characters of an id in an error
+constexpr std::size_t kShown = 80;  // of an id in an error
 
 void checkColumn(Store::Implementation& store, const Table& table, const std::string& column) {
   if (!store.tables.has(table)) return;
@@ -23,7 +23,7 @@ void checkColumn(Store::Implementation& store, const Table& table, const std::st
     const std::string_view id = statement.text(0);
     if (!isStoredId(id))
       store.connection.damaged("in table " + table.name + ", " + column + " \"" + std::string(id.substr(0, kShown)) +
-                               "\" is not made of 16 to 64 hexadecimal digits");
+                               "\" does not consist of 16 to 64 hexadecimal digits");
   }
 }
 

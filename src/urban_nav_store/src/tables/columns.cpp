@@ -34,7 +34,7 @@ void Columns::pose(Pose& value) {
   for (int i = 0; i < 7; ++i) real(kNames[i], v[i]);
   if (!isValidating()) return;
   const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
-  if (!(std::abs(q.norm() - 1.0) <= 0.01)) refuse("a quaternion is not of length 1");
+  if (!(std::abs(q.norm() - 1.0) <= 0.01)) refuse("a quaternion is not of unit length");
   if (isReading()) value = Pose(q, {v[0], v[1], v[2]});
 }
 

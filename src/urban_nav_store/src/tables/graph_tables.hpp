@@ -43,13 +43,13 @@ struct RelaxedRow {
   }
 };
 
-/// Returns nullopt for words that no stored edge has.
+/// Returns nullopt for words that are not stored for edges.
 inline std::optional<urban_nav_core::ClosureVerdict> parseEdgeVerdict(std::string_view word) {
   const auto verdict = urban_nav_core::parseClosureVerdict(word);
   return verdict == urban_nav_core::ClosureVerdict::Degenerate ? std::nullopt : verdict;
 }
 
-/// The key that edges and their evidence have in common.
+/// Key of edges and of their evidence.
 inline void edgeKey(Columns& columns, Edge& edge) {
   columns.text("session_a", edge.a.session);
   columns.integer("stamp_a_ns", edge.a.stamp);
@@ -77,7 +77,7 @@ struct EdgeRow {
 };
 
 struct EvidenceRow {
-  Edge edge;  ///< its key
+  Edge edge;  ///< only its key
   std::string data;
   static Table table() {
     Table table{"evidence", 6};

@@ -6,7 +6,7 @@
 
 namespace urban_nav_store {
 
-/// The scans of one laser in one second, compressed (blocks/scan_block.hpp).
+/// Scans of one laser in one second, compressed (blocks/scan_block.hpp).
 struct ScanBlockRow {
   SessionId session;
   std::string laser;
@@ -48,7 +48,7 @@ struct KeyframeRow {
   }
 };
 
-/// A block of input events, compressed (blocks/event_block.hpp).
+/// Block of input events, compressed (blocks/event_block.hpp).
 struct InputBlockRow {
   SessionId session;
   std::int64_t block = 0;
@@ -67,7 +67,7 @@ struct InputBlockRow {
   }
 };
 
-/// A part of a stage's state, compressed.
+/// Part of a stage's state, compressed.
 struct StatePartRow {
   SessionId session;
   std::string stage;

@@ -5,7 +5,7 @@ namespace urban_nav_store {
 
 namespace {
 
-/// Notes names, types and initial values of columns.
+/// Records names, types and initial values of columns.
 class DeclaringColumns : public Columns {
  public:
   explicit DeclaringColumns(Table& table) : table_(table), since_(table.since) {}

@@ -24,7 +24,7 @@ TEST(Deflate, RefusesWhatIsTooLongOrNoSuchThing) {
   EXPECT_FALSE(inflated("", 1000));
   EXPECT_FALSE(inflated(std::string(7, '\0'), 1000));
   std::string lies = bytes;
-  lies[4] = 1;  // a length of 4 GB in front of a few bytes
+  lies[4] = 1;  // a length of 4 GB for a few bytes
   EXPECT_FALSE(inflated(lies, ~std::size_t{0}));
 }
 

@@ -6,7 +6,7 @@
 namespace urban_nav_store {
 namespace {
 
-// FIPS 180-4's own examples, and the lengths at which the padding needs one block and two.
+// Examples of FIPS 180-4, and the lengths at which padding needs one or two blocks.
 TEST(Sha256, IsThatOfTheStandard) {
   EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
@@ -15,7 +15,7 @@ TEST(Sha256, IsThatOfTheStandard) {
   EXPECT_EQ(sha256(std::string(1000000, 'a')), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-// By coreutils' sha256sum.
+// Reference values from coreutils' sha256sum.
 TEST(Sha256, PadsEveryLength) {
   EXPECT_EQ(sha256(std::string(55, '\0')), "02779466cdec163811d078815c633f21901413081449002f24aa3e80f0b88ef7");
   EXPECT_EQ(sha256(std::string(56, '\0')), "d4817aa5497628e7c77e6b606107042bbba3130888c5f47a375e6179be789fbb");

@@ -18,7 +18,7 @@ TEST(MatrixBytes, RoundTripAndRefusal) {
   urban_nav_core::Matrix6d back;
   ASSERT_TRUE(parseMatrix(matrixBytes(matrix), back));
   EXPECT_EQ(back, matrix);
-  urban_nav_core::Matrix6d symmetric = matrix;  // not, as yet
+  urban_nav_core::Matrix6d symmetric = matrix;  // made symmetric below
   symmetric(4, 1) = symmetric(1, 4) + 1.0;
   ASSERT_TRUE(parseMatrix(matrixBytes(symmetric), back));
   EXPECT_EQ(back, symmetric);

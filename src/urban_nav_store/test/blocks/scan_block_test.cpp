@@ -20,7 +20,7 @@ std::vector<Scan> someScans() {
   testing::Drawn drawn(1);
   std::vector<Scan> scans;
   for (int i = 0; i < 75; ++i) scans.push_back(drawn.scan(1'000'000'000'000 + 13'333'333 * i, i == 3 ? 0 : 181));
-  scans[5].beams[7].stamp -= 1'000'000;  // no order is asked for within a scan
+  scans[5].beams[7].stamp -= 1'000'000;  // beams within a scan may be in any order
   return scans;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A damaged store is named as such, or what was damaged is not in use: no crash, and never other data than was written.
+// A damaged store is reported, or the damaged part is unused: no crash, and no wrong data.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -34,7 +34,7 @@ class Damage : public ::testing::Test {
     bytes = readFile(path);
   }
 
-  /// What was read of a damaged file: all, or an error that names it.
+  /// Result of reading a damaged file: all data, or an error that names it.
   enum class Outcome { Same, Refused, Other };
   template <typename Read>
   Outcome makeOutcome(const Read& read) {
@@ -49,7 +49,7 @@ class Damage : public ::testing::Test {
       return dump(store);
     });
   }
-  /// As a large store is read, which is not checked throughout when it is opened.
+  /// Reads like a large store, which is not completely checked when opened.
   Outcome readOnly() {
     return makeOutcome([&] {
       Connection connection(path, Connection::Mode::ReadFrozen);
@@ -85,7 +85,7 @@ TEST_F(Damage, OfAnyByteIsNamed) {
   std::mt19937 random(1);
   int same = 0, refused = 0;
   for (int i = 0; i < 400; ++i) {
-    // Half of them where the structure of a page stands.
+    // Half of them within the structure of a page.
     const std::size_t page = random() % (bytes.size() / kPage);
     const std::size_t at = page * kPage + random() % (i % 2 == 0 ? 100 : kPage);
     std::string damaged = bytes;

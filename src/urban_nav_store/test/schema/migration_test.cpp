@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of schema 2, made by the SQL of the programs that wrote them, and later schemas derived from declarations.
+// Files of schema 2, created by the SQL of the programs of that time, and later schemas derived from declarations.
 #include <gtest/gtest.h>
 
 #include "schema/schema.hpp"
@@ -96,7 +96,7 @@ struct Landmark {
   }
 };
 
-/// The table `property` with two columns more.
+/// The table `property` with two more columns.
 struct PropertyWithUnit {
   SessionId session;
   Property property;
@@ -114,7 +114,7 @@ struct PropertyWithUnit {
   }
 };
 
-/// All tables as a later version could have them.
+/// All tables of a hypothetical later version.
 Tables laterTables() {
   Tables tables = schema::tables();
   for (const Table*& table : tables)
@@ -200,7 +200,7 @@ TEST_F(Migration, HappensAsAWholeOrNotAtAll) {
   {
     Connection connection(path, Connection::Mode::Write);
     connection.execute("CREATE TABLE landmark(a)");
-    expectError([&] { schema::migrate(connection, laterTables()); }, path, "SQLite says");
+    expectError([&] { schema::migrate(connection, laterTables()); }, path, "SQLite error");
     EXPECT_LT(schema::version(connection), kLater);
     connection.execute("DROP TABLE landmark");
   }
@@ -211,7 +211,7 @@ TEST_F(Migration, HappensAsAWholeOrNotAtAll) {
 TEST_F(Migration, ALostRowIsNamedBeforeItsTableIsWrittenAnew) {
   Connection connection(path, Connection::Mode::Write);
   connection.execute("UPDATE tally SET count=count+1 WHERE name='property'");
-  expectError([&] { schema::migrate(connection, laterTables()); }, path, "do not add up to the 3 written");
+  expectError([&] { schema::migrate(connection, laterTables()); }, path, "do not match the 3 written");
 }
 
 }  // namespace

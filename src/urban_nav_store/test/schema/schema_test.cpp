@@ -26,7 +26,7 @@ TEST(Schema, ATableThatWasChangedByHandIsNamed) {
     Connection connection(folder.file(std::string(change) + ".db"), Connection::Mode::Create);
     schema::create(connection);
     connection.execute(change);
-    expectError([&] { schema::check(connection); }, connection.name(), "is not as it was made");
+    expectError([&] { schema::check(connection); }, connection.name(), "has a different schema");
   }
 }
 

@@ -27,8 +27,8 @@ TEST(ForcesState, WhatIsNotWholeIsNothing) {
   EXPECT_FALSE(unpackForces(whole + "x"));
 }
 
-/// The bytes of version 1: its number (4 bytes), how many forces (8), then stamp and three numbers of each (8 bytes
-/// each); little-endian.
+/// Returns the bytes of version 1: its number (4 bytes), the number of forces (8), then stamp and three numbers of each
+/// (8 bytes each); little-endian.
 std::string versionOne() {
   std::string bytes;
   const auto integer = [&](std::uint64_t value, std::size_t size) {
@@ -62,7 +62,7 @@ TEST(ForcesState, Version1IsRead) {
   for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(unpackForces(bytes.substr(0, size))) << size;
   EXPECT_FALSE(unpackForces(bytes + "x"));
   std::string many = bytes;
-  many[10] = '\x7f';  // of a number of forces that no memory holds
+  many[10] = '\x7f';  // a number of forces that exceeds any memory
   EXPECT_FALSE(unpackForces(many));
   std::string newer = bytes;
   newer[0] = '\2';

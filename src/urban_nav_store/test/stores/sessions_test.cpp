@@ -52,7 +52,7 @@ TEST_F(SessionRows, ComeBackInOrderOfStart) {
   EXPECT_FALSE(sessions.find("d"));
   Session other = late;
   other.start = 201;
-  expectError([&] { sessions.put(other); }, path, "session b is another one already");
+  expectError([&] { sessions.put(other); }, path, "session b already exists with another origin");
 }
 
 TEST_F(SessionRows, WhatIsKnownOfThemIsReplacedByName) {

@@ -8,7 +8,7 @@
 
 namespace urban_nav_store::testing {
 
-/// Things to write that are drawn from a seed, with every digit of a double in use.
+/// Random content from a seed, with all digits of doubles in use.
 class Drawn {
  public:
   explicit Drawn(std::uint32_t seed) : random_(seed) {}
@@ -26,7 +26,7 @@ class Drawn {
   std::mt19937 random_;
 };
 
-/// A session with some of everything, not committed. Its id.
+/// Writes a session with rows in all tables, without a commit. Returns its id.
 SessionId fill(Store& store, std::uint32_t seed, int nodes);
 
 }  // namespace urban_nav_store::testing

@@ -10,7 +10,7 @@
 
 namespace urban_nav_store::testing {
 
-/// A folder of its own for one test, gone when the test is.
+/// Temporary folder for one test, removed by the destructor.
 class Folder {
  public:
   Folder();
@@ -18,7 +18,7 @@ class Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
   std::string file(const std::string& name) const { return (path_ / name).string(); }
-  /// How many entries it has.
+  /// Returns the number of entries.
   std::size_t files() const;
 
  private:
@@ -28,7 +28,7 @@ class Folder {
 std::string readFile(const std::string& path);
 void writeFile(const std::string& path, const std::string& content);
 
-/// The text of the UserError that a call throws, or "".
+/// Returns the text of the UserError that a call throws, or "".
 template <typename Call>
 std::string catchError(const Call& call) {
   try {
@@ -39,7 +39,7 @@ std::string catchError(const Call& call) {
   return "";
 }
 
-/// The call must throw a UserError that names the file and has these words.
+/// Expects a UserError that names the file and contains these words.
 template <typename Call>
 void expectError(const Call& call, const std::string& file, const std::string& words) {
   const std::string text = catchError(call);

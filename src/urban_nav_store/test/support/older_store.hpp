@@ -5,7 +5,7 @@
 
 namespace urban_nav_store::testing {
 
-/// Turns a store into one of an earlier schema. Tables that the schema has not, or with fewer columns, lose their rows.
+/// Converts a store to an earlier schema. Rows of tables that the schema lacks, or has with fewer columns, are lost.
 void makeOlder(const std::string& path, const Folder& folder, int version);
 
 }  // namespace urban_nav_store::testing

@@ -13,24 +13,25 @@
 
 namespace urban_nav_trust {
 
-/// Whether the robot is where the map shows.
+/// Whether the robot's position in the map is reliable.
 enum class TrustState {
   Known,   ///< independent measurements of turns and of lengths were compared and agree
-  New,     ///< in a map of its own, which nothing ties to the first one
+  New,     ///< in a separate map that is not connected to the first one
   Unsure,  ///< a test fails, or turns or lengths could not be compared
-  Lost     ///< odometry is lost: the position is a prediction
+  Lost     ///< odometry is lost: the position is predicted
 };
-/// "KNOWN", "NEW", "UNSURE", "LOST".
+/// Returns "KNOWN", "NEW", "UNSURE" or "LOST".
 const char* toString(TrustState state);
 
 /// Radii of the stated probabilities, m.
 constexpr std::array<double, 3> kRadii = {0.1, 0.5, 2.0};
 
-/// A frame before the tests are applied.
+/// State of a frame before the tests are applied.
 struct FrameEvidence {
   urban_nav_core::StampNs stamp = 0;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< position in the map as odometry and graph state it, m^2
-  double travelled = 0.0;                                ///< m along the path from its begin
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the position in the map, as stated by odometry and
+                                                         ///< graph, m^2
+  double travelled = 0.0;                                ///< m along the path from its beginning
   bool is_lost = false;                                  ///< status of odometry
   bool is_joined = true;                                 ///< part of the first map
 };
@@ -38,34 +39,35 @@ struct FrameEvidence {
 struct FrameTrust {
   urban_nav_core::StampNs stamp = 0;
   TrustState state = TrustState::Unsure;
-  std::array<double, 3> probabilities{};  ///< that the position is within kRadii
-  std::string tests;                      ///< names of the tests that fail here, separated by blanks
+  std::array<double, 3> probabilities{};  ///< that the position error is less than kRadii
+  std::string tests;                      ///< names of the tests that fail at this frame, separated by blanks
 };
 
 /// Returns whether a test fails: its p-value is below `false_alarm`.
 bool hasFailed(const ConsistencyTest& test, const Parameters& parameters);
 
-/// A test that fails where a frame is.
+/// Failed test that affects a frame.
 struct Failure {
   std::string test;
-  double distance = 0.0;  ///< m travelled in the interval of the test
+  double distance = 0.0;  ///< m travelled during the interval of the test
 };
 /// Returns the trust in a frame. Its covariance is known up to the factor of Confirmation::scales, over which the
-/// probabilities are averaged; each failure widens it by Parameters::unexplained_drift of its distance. UNSURE unless
-/// the confirmation is complete.
+/// probabilities are averaged; each failure adds Parameters::unexplained_drift of its distance. UNSURE unless the
+/// confirmation is complete.
 FrameTrust assessFrame(const FrameEvidence& frame, const std::vector<Failure>& failures,
                        const Confirmation& confirmation, const Parameters& parameters);
 
-/// Returns the trust in each frame of a session. `frames`: in order of time. `spreads`: closures tie the path after a
-/// failure to the path before it, so that it affects every frame; otherwise it affects those from its begin on.
+/// Returns the trust in each frame of a session. `frames`: in order of time. `spreads`: closures connect the path after
+/// a failure to the path before it, so that it affects every frame; otherwise it affects the frames from its beginning
+/// on.
 std::vector<FrameTrust> assessFrames(const std::vector<FrameEvidence>& frames, const TestResults& results, bool spreads,
                                      const Parameters& parameters);
 
-/// Trust in the map as a whole.
+/// Trust in the whole map.
 struct MapTrust {
   TrustState state = TrustState::Unsure;
   std::array<double, 3> probabilities{};  ///< means over the frames
-  std::string reason;                     ///< why it is not KNOWN; empty: it is
+  std::string reason;                     ///< why the state is not KNOWN; empty if it is
 };
 MapTrust assessMap(const std::vector<FrameTrust>& frames, const TestResults& results, const Parameters& parameters);
 

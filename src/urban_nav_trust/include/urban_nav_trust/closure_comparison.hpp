@@ -11,21 +11,21 @@ namespace urban_nav_trust {
 constexpr const char* kStereoClosureTest = "odometry_stereo_closures";
 constexpr const char* kLaserClosureTest = "odometry_laser_closures";
 
-/// A closure and what odometry alone, which knows of no closure, states of the motion between its two poses.
+/// A closure compared with the motion between its two poses by odometry only, without other closures.
 struct ClosureDifference {
   Interval interval;  ///< from the earlier pose to the later one
   bool by_laser = false;
-  /// Closure less odometry along the directions that the closure measured, m or rad, with the covariances of both.
+  /// Closure minus odometry along the directions measured by the closure, m or rad, with the covariances of both.
   Eigen::VectorXd difference;
   Eigen::MatrixXd odometry, closure;
-  double distance_m = 0.0, angle_rad = 0.0;  ///< between both, whole
+  double distance_m = 0.0, angle_rad = 0.0;  ///< magnitude of the difference
 };
 
-/// Tests odometry against the closures of each kind: the largest squared Mahalanobis distance, where odometry's
-/// covariance is too small by an unknown factor, over all closures (Bonferroni). The closure of median distance is
-/// evidence of that factor, once: closures of one place share scans, surfaces and the path between. Adds to `results`
-/// tests, absent ones and the evidence. Stereo closures confirm turns; lengths they measure with the same cameras.
-/// Derivation: docs/derivations/trust.md.
+/// Tests odometry against the closures of each kind: the largest squared Mahalanobis distance over all closures
+/// (Bonferroni), given that odometry's covariance is too small by an unknown factor. The closure of median distance is
+/// used once as evidence on that factor, because closures of one place share scans, surfaces and the path between. Adds
+/// tests, absent tests and the evidence to `results`. Stereo closures confirm turns only, since they measure lengths
+/// with the same cameras. Derivation: docs/derivations/trust.md.
 void testClosures(const std::vector<ClosureDifference>& closures, TestResults& results);
 
 }  // namespace urban_nav_trust

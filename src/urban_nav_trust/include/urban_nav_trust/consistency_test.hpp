@@ -11,18 +11,18 @@ using urban_nav_core::Interval;
 
 /// Comparison of two independent measurements of one quantity.
 struct ConsistencyTest {
-  std::string name;   ///< "disparity_offset"; the same in all files, messages and reports
-  Interval interval;  ///< in which the measurements differ, if the test fails; else the time that it covers
+  std::string name;   ///< "disparity_offset"; the same in files, messages and reports
+  Interval interval;  ///< in which the measurements differ if the test fails; else the interval tested
   double statistic = 0.0;
   double degrees_of_freedom = 0.0;
-  double p_value = 1.0;  ///< probability of such a statistic or a larger one, where both are right; 0...1
+  double p_value = 1.0;  ///< probability of at least this statistic if both measurements are right; 0...1
   std::string sentence;  ///< finding, with numbers and units
-  std::string remedy;    ///< repair, for the user; also if it passed
+  std::string remedy;    ///< for the user; also set if the test passes
 };
 
-/// An independent measurement that was not there, and why.
+/// Test that was not possible, with the reason.
 struct AbsentMeasurement {
-  std::string name;    ///< test that needs it
+  std::string name;    ///< name of the test
   std::string reason;  ///< "no lasers"
 };
 

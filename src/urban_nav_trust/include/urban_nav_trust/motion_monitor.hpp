@@ -19,20 +19,20 @@ constexpr const char* kSpeedTest = "wheel_speed";
 constexpr const char* kDirectionTest = "wheel_direction";
 constexpr const char* kClockTest = "imu_clock";
 
-/// Tests stereo odometry against the gyroscope and the wheels in windows of a second: turns must agree, by the largest
+/// Tests stereo odometry against gyroscope and wheels in windows of one second: turns must agree, by the largest
 /// chi-square of all windows; constants (ratio of lengths, direction of travel in base_link, delay of the clocks) must
 /// not change. Derivation: docs/derivations/trust.md. Not thread-safe.
 class MotionMonitor {
  public:
   explicit MotionMonitor(const Parameters& parameters);
 
-  /// Adds a frame, in order of time. Returns whether it shows a change.
+  /// Adds a frame, in order of time. Returns whether it reveals a change.
   bool add(const urban_nav_core::FrameMeasurements& frame);
-  /// Adds a final step of odometry, in order of time: the drift that it states, for the evidence.
+  /// Adds a final step of odometry, in order of time, whose drift enters the evidence.
   void add(const urban_nav_core::RelativePose& step);
   std::vector<ConsistencyTest> tests() const;
   std::vector<AbsentMeasurement> absent() const;
-  /// Return the evidence of gyroscope and wheels on the covariance that odometry states.
+  /// Return the evidence of gyroscope and wheels on the scale of odometry's covariance.
   ScaleEvidence turnEvidence() const { return turn_evidence_.evidence(); }
   ScaleEvidence lengthEvidence() const { return length_evidence_.evidence(); }
 
@@ -44,7 +44,7 @@ class MotionMonitor {
     double turn_variance = 0.0, forward = 0.0, sideways = 0.0, forward_error = 0.0, forward_variance = 0.0;
     int turns = 0, moves = 0;
   };
-  /// A constant that is measured in windows.
+  /// Constant measured in windows.
   struct Constant {
     explicit Constant(const Parameters& parameters);
     urban_nav_core::ChangeDetector detector;

@@ -13,23 +13,23 @@ namespace urban_nav_trust {
 
 constexpr const char* kOffsetTest = "disparity_offset";
 
-/// Tests whether the cameras of a stereo pair keep their mounting against each other.
+/// Tests whether the relative mounting of the stereo cameras is constant.
 ///
-/// Odometry measures with each frame by how much disparities exceed those which the landmarks of earlier frames predict
-/// (VoStatistics::disparity_step_px). While the mounting stays, that is noise about a constant. A camera that was
-/// turned or shifted displaces all of them at once, until the landmarks are renewed. Derivation:
-/// docs/derivations/trust.md. Not thread-safe.
+/// Odometry measures, per frame, by how much disparities exceed those predicted from the landmarks of earlier frames
+/// (VoStatistics::disparity_step_px). With a constant mounting this is noise about a constant. A rotated or shifted
+/// camera displaces all disparities at once, until the landmarks are renewed. Derivation: docs/derivations/trust.md.
+/// Not thread-safe.
 class OffsetMonitor {
  public:
   explicit OffsetMonitor(const Parameters& parameters);
 
-  /// Adds the step of a frame, in order of time, with its standard deviation (px). One that is not finite, or whose
-  /// sigma is not above 0, was not measured. Returns whether it shows a change of the mounting.
+  /// Adds the step of a frame, in order of time, with its standard deviation (px). A step that is not finite or whose
+  /// sigma is not positive is ignored. Returns whether it reveals a change of the mounting.
   bool add(urban_nav_core::StampNs stamp, double step_px, double sigma_px);
   /// Returns the test; nullopt before two frames are compared.
   std::optional<ConsistencyTest> test() const;
-  /// Returns the disparity offset against the one of the first frame, px: one segment for each mounting. Empty before
-  /// two frames are compared.
+  /// Returns the disparity offset relative to the first frame, px: one segment for each mounting. Empty before two
+  /// frames are compared.
   std::vector<ConstantSegment> segments() const;
 
  private:

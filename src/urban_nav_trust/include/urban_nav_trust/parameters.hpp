@@ -13,7 +13,7 @@ struct Parameters {
   Parameters();
 };
 
-/// The table: the only definition of the defaults, ranges, units and descriptions of these parameters.
+/// Returns the table, the only definition of defaults, ranges, units and descriptions of these parameters.
 const urban_nav_core::Table<Parameters>& table();
 
 }  // namespace urban_nav_trust

@@ -14,21 +14,21 @@ struct TestResults {
   std::vector<ConsistencyTest> tests;
   std::vector<AbsentMeasurement> absent;
   std::vector<ConstantSegment> segments;
-  ScaleEvidence turns, lengths;  ///< of odometry's covariance, by independent measurements of turns and of lengths
+  ScaleEvidence turns, lengths;  ///< on odometry's covariance, from independent measurements of turns and of lengths
 };
 
-/// Parts of the motion that independent measurements confirm.
+/// Components of the motion confirmed by independent measurements.
 struct Confirmation {
-  bool any = false;                     ///< some test compared two sensors
-  bool turns = false, lengths = false;  ///< at least one test compared these with another sensor
+  bool any = false;                     ///< at least one test compared two sensors
+  bool turns = false, lengths = false;  ///< at least one test compared this component with another sensor
   ScaleWeights scales{};                ///< probabilities of covarianceScales()
   bool isComplete() const { return turns && lengths; }
 };
-/// `disparity_offset` compares a stereo pair with itself and confirms nothing.
+/// Returns the confirmation. `disparity_offset` compares a stereo pair with itself and confirms nothing.
 Confirmation confirm(const TestResults& results);
 
-/// Returns why a confirmation is not complete: what was not compared, and the tests that could have done it, each with
-/// the reason of its absence. Empty: it is complete.
+/// Returns why a confirmation is incomplete: the component that was not compared, and the tests that could have done so
+/// with the reasons of their absence. Empty: it is complete.
 std::string missingSentence(const Confirmation& confirmation, const TestResults& results);
 
 }  // namespace urban_nav_trust

@@ -10,14 +10,14 @@
 
 namespace urban_nav_trust {
 
-/// All tests of one session, fed with what the stages of a session give, live and offline. Not thread-safe.
+/// Tests of one session, computed from the outputs of its stages, live and offline. Not thread-safe.
 class TrustMonitor {
  public:
   explicit TrustMonitor(const Parameters& parameters) : offset_(parameters), motion_(parameters) {}
 
-  /// Adds a stereo frame, in order of time. Returns whether it shows a change of the rig.
+  /// Adds a stereo frame, in order of time. Returns whether it reveals a change of the rig.
   bool add(const urban_nav_core::FrameMeasurements& frame);
-  /// Adds a final step of odometry, in order of time, before the frame that came with it.
+  /// Adds a final step of odometry, in order of time, before the frame received with it.
   void add(const urban_nav_core::RelativePose& step) { motion_.add(step); }
   TestResults results() const;
 

@@ -14,9 +14,9 @@ using urban_nav_core::Health;
 
 namespace {
 
-constexpr urban_nav_core::StampNs kPeriod = 1'000'000'000;  // between estimates without news
+constexpr urban_nav_core::StampNs kPeriod = 1'000'000'000;  // between estimates without a change
 
-/// Tests that need a whole session, and measurements that no stage compares live.
+/// Tests that require a whole session, or measurements that no live stage compares.
 constexpr const char* kOffline[] = {kDepthScaleTest,   kExchangeTest,     kStereoClosureTest,
                                     kLaserClosureTest, kGravityTest,      kLidarTest,
                                     kLidarScaleTest,   "panorama_colour", "gps_position"};

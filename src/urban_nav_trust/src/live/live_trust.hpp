@@ -15,7 +15,7 @@
 
 namespace urban_nav_trust {
 
-/// A stereo frame as odometry publishes it.
+/// Stereo frame as published by odometry.
 struct LiveFrame {
   urban_nav_core::StampNs stamp = 0;
   bool accepted = true;
@@ -23,36 +23,36 @@ struct LiveFrame {
   urban_nav_core::FrameMeasurements compared;
 };
 
-/// A pose of odometry with its covariance.
+/// Pose of odometry with its covariance.
 struct LivePose {
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::PoseWithCovariance T_odom_base;
 };
 
-/// A final step of odometry, when it has left the window: later than its frame, and no mark of time.
+/// Final step of odometry, received when it has left the window: later than its frame, so not used as time reference.
 struct LiveStep {
-  urban_nav_core::StampNs stamp = 0;  ///< of its end
+  urban_nav_core::StampNs stamp = 0;  ///< of its end pose
   urban_nav_core::RelativePose step;
 };
 
-/// Trust in the pose of now.
+/// Trust in the current pose.
 struct LiveEstimate {
   FrameTrust frame;
-  std::string reason;  ///< why it is not KNOWN; empty: it is
+  std::string reason;  ///< why the state is not KNOWN; empty if it is
   TestResults results;
 };
 
-/// Why the stage is not OK.
+/// Reason why the stage is not OK.
 enum class Reason { None = 0, CalibrationChanged = 1, OdometryLost = 2 };
-/// "none", "calibration_changed", "odometry_lost".
+/// Returns "none", "calibration_changed" or "odometry_lost".
 const char* toString(Reason reason);
 
-/// Trust in the poses of a live robot. Stamps that jump back begin a new session. Keeps no history of poses. Used by
-/// one thread.
+/// Trust in the poses of a live robot. A backward jump of stamps begins a new session. No history of poses is kept.
+/// Used by one thread.
 class LiveTrust {
  public:
   using Listener = std::function<void(const LiveEstimate&)>;
-  /// `listener`: gets an estimate with each pose when state or tests have changed, and after a second otherwise.
+  /// `listener`: receives an estimate with each pose if state or tests have changed, otherwise once a second.
   LiveTrust(const Parameters& parameters, Listener listener);
 
   void add(const LiveFrame& frame);
@@ -60,7 +60,7 @@ class LiveTrust {
   void add(const LivePose& pose);
   /// Begins a new session.
   void reset();
-  /// Returns DEGRADED (calibration_changed) from a change on until the session ends, and LOST while odometry is.
+  /// Returns DEGRADED (calibration_changed) from a change to the end of the session, and LOST while odometry is lost.
   urban_nav_core::Status status() const;
   urban_nav_live::StageReport report() const;
 
@@ -75,7 +75,7 @@ class LiveTrust {
   std::optional<Eigen::Vector3d> position_;
   double travelled_ = 0.0;            // m
   std::optional<double> changed_at_;  // travelled_ at the first change of a constant
-  std::optional<LiveEstimate> last_;  // that was published
+  std::optional<LiveEstimate> last_;  // last published estimate
   std::int64_t frames_ = 0, poses_ = 0;
 };
 

@@ -11,7 +11,7 @@ using urban_nav_core::Table;
 
 NodeletParameters::NodeletParameters() { nodeletTable().setDefaults(*this); }
 
-// clang-format would give each of the columns a line.
+// clang-format would put each column on its own line.
 // clang-format off
 const Table<NodeletParameters>& nodeletTable() {
   using P = NodeletParameters;
@@ -19,9 +19,9 @@ const Table<NodeletParameters>& nodeletTable() {
       "",
       {
           {"map_frame", &P::map_frame, "", urban_nav_core::frames::kMap, false, false, {},
-           "Frame in which the positions are that the probabilities are about.", "REP-105"},
+           "Frame of the positions whose probabilities are published.", "REP-105"},
           {"queue_size", &P::queue_size, "messages", std::int64_t{200}, std::int64_t{2}, std::int64_t{1000000}, {},
-           "Inputs that may wait; beyond that the oldest is dropped and counted.", "docs/architecture.md"},
+           "Largest number of waiting inputs; beyond it the oldest is dropped and counted.", "docs/architecture.md"},
       });
   return rows;
 }

@@ -7,7 +7,7 @@
 
 namespace urban_nav_trust {
 
-/// Parameters of the nodelet apart from those of the tests (urban_nav_trust/parameters.hpp). One member per row of
+/// Parameters of the nodelet except those of the tests (urban_nav_trust/parameters.hpp). One member per row of
 /// nodeletTable().
 struct NodeletParameters {
   std::string map_frame;

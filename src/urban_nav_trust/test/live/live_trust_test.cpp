@@ -12,7 +12,7 @@ using urban_nav_core::Health;
 
 constexpr urban_nav_core::StampNs kLiveFrame = 50'000'000;
 
-/// A robot at 1 m/s whose odometry has 20 frames a second.
+/// Robot at 1 m/s whose odometry has 20 frames a second.
 class LiveTrustTest : public ::testing::Test {
  protected:
   void drive(int frames, double step_px = 0.0, Health health = Health::Ok, double sigma_px = 0.03) {

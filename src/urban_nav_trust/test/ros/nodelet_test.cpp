@@ -18,7 +18,7 @@ using urban_nav_msgs::Trust;
 
 constexpr urban_nav_core::StampNs kFrame = 50'000'000;
 
-/// Odometry of a robot, and what the nodelet states of it.
+/// Odometry of a robot, and the state published by the nodelet.
 class TrustGraph : public urban_nav_ros::testing::Listener {
  public:
   TrustGraph() : Listener("trust"), receipts_("trust") {

@@ -14,7 +14,7 @@ namespace {
 using Cell = std::pair<int, int>;
 using Corner = std::pair<int, int>;
 
-/// Edges of the outline by their first corner: the area is on their left. At most two begin at a corner.
+/// Edges of the outline by their first corner, with the area on their left. At most two begin at a corner.
 using Edges = std::multimap<Corner, Corner>;
 
 std::set<Cell> cellsAround(const std::vector<Eigen::Vector2d>& path, double reach, double cell) {
@@ -42,8 +42,8 @@ Edges outlineEdges(const std::set<Cell>& cells) {
   return edges;
 }
 
-/// Removes and returns the edge that begins at `at`. Where two do, that to the left: cells that share only a corner
-/// have outlines of their own.
+/// Removes and returns the edge that begins at `at`. Of two edges, returns the left one, so that cells that share only
+/// a corner have separate outlines.
 Corner takeNext(Edges& edges, const Corner& before, const Corner& at) {
   const auto [first, last] = edges.equal_range(at);
   auto chosen = first;

@@ -13,8 +13,8 @@ struct Coverage {
   double area_m2 = 0.0;
 };
 
-/// Returns the area within `reach` of a path, on a grid of cells of width `cell`, m. Polygons do not overlap; they
-/// touch at corners at most.
+/// Returns the area within `reach` of a path, on a grid of cells of width `cell`, m. Polygons do not overlap and
+/// touch at most at corners.
 Coverage coverageAround(const std::vector<Eigen::Vector2d>& path, double reach, double cell);
 
 }  // namespace urban_nav

@@ -18,7 +18,7 @@ namespace {
 // OGC 12-128r17: requirements 2 and 19, table 1.
 constexpr std::uint32_t kApplicationId = 0x47504B47;  // "GPKG"
 constexpr int kVersion = 10300;
-constexpr int kCartesian = -1;  // srs_id of a system without a place on the earth
+constexpr int kCartesian = -1;  // srs_id of a system without geodetic reference
 constexpr std::uint32_t kWkbPointZ = 1001, kWkbLineZ = 1002, kWkbPolygon = 3, kWkbMultiPolygon = 6;
 
 constexpr const char* kTables =
@@ -34,7 +34,7 @@ constexpr const char* kTables =
     "(table_name, column_name), CONSTRAINT uk_gc_table_name UNIQUE (table_name), CONSTRAINT fk_gc_tn FOREIGN KEY "
     "(table_name) REFERENCES gpkg_contents(table_name), CONSTRAINT fk_gc_srs FOREIGN KEY (srs_id) REFERENCES "
     "gpkg_spatial_ref_sys(srs_id));";
-// The three systems that requirement 11 asks for.
+// The three systems of requirement 11.
 constexpr const char* kSystems =
     "INSERT INTO gpkg_spatial_ref_sys VALUES('Undefined Cartesian SRS',-1,'NONE',-1,'undefined','the frame map: m');"
     "INSERT INTO gpkg_spatial_ref_sys VALUES('Undefined geographic SRS',0,'NONE',0,'undefined',NULL);"
@@ -123,7 +123,7 @@ class GeoPackageFile::Implementation {
   Implementation(const std::string& path, LayerCrs crs, std::string changed)
       : path_(path), partial_(path, ".part"), crs_(std::move(crs)), changed_(std::move(changed)) {
     std::error_code ignored;
-    std::filesystem::remove(partial_.path(), ignored);  // of a process that was killed
+    std::filesystem::remove(partial_.path(), ignored);  // left by a killed process
     if (sqlite3_open_v2(partial_.path().c_str(), &file_, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr) !=
         SQLITE_OK)
       fail();

@@ -14,7 +14,7 @@ namespace urban_nav {
 
 /// Coordinate reference system of all layers of a GeoPackage.
 struct LayerCrs {
-  int epsg = 0;     ///< 0: the frame `map`, a Cartesian system without a place on the earth (srs_id -1)
+  int epsg = 0;     ///< 0: the frame `map`, a Cartesian system without geodetic reference (srs_id -1)
   std::string wkt;  ///< definition; empty without a code
 };
 
@@ -22,7 +22,7 @@ struct LayerCrs {
 class Geometry {
  public:
   using Point = urban_nav_core::Vector3d;
-  /// Vertices of a closed polygon; the last one is not the first one again.
+  /// Vertices of a closed polygon; the first one is not repeated.
   using Ring = std::vector<Eigen::Vector2d>;
   /// The outer ring, counter-clockwise, then its holes, clockwise.
   using Polygon = std::vector<Ring>;
@@ -52,8 +52,7 @@ class GeoPackageFile {
   };
   using Value = std::variant<std::string, std::int64_t, double>;
 
-  /// `changed`: the time in ISO 8601 that each layer states as that of its last change. Throws UserError if the file
-  /// cannot be written.
+  /// `changed`: time of the last change of each layer, ISO 8601. Throws UserError if the file cannot be written.
   GeoPackageFile(const std::string& path, LayerCrs crs, std::string changed);
   ~GeoPackageFile();
   GeoPackageFile(const GeoPackageFile&) = delete;
@@ -63,7 +62,7 @@ class GeoPackageFile {
   void addLayer(const std::string& name, const std::string& geometry, bool has_z, const std::vector<Column>& columns);
   /// Adds a feature to the layer that was added last: one value for each of its columns.
   void addFeature(const Geometry& geometry, const std::vector<Value>& values);
-  /// Completes the file; it appears whole, or not at all without this call.
+  /// Completes the file, which appears atomically. Without this call there is no file.
   void commit();
 
  private:

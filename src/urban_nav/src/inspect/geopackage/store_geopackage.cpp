@@ -36,7 +36,7 @@ constexpr double kReach = 5.0, kCell = 1.0;  // m: of the coverage around the pa
 constexpr double kQualitySpacing = 1.0;      // m
 constexpr double kQualityDegrees = 57.29577951308232;
 
-/// A session, the name that closures.csv gives it, and how its positions are written.
+/// A session, its name in closures.csv, and the projection of its positions.
 struct DrawnSession {
   const StoredTrajectory* trajectory;
   std::string name;

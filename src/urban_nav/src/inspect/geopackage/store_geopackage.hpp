@@ -9,8 +9,8 @@
 namespace urban_nav {
 
 /// Writes the sessions of a store as layers of a GeoPackage: trajectories, closures, coverage and quality
-/// (docs/files.md). `maps`: as readMaps() groups them; `crs`: as MapCrs takes it, or "local" or empty for the frame
-/// `map`. Throws UserError for other words, DataError if the GPS fixes of a map do not place it.
+/// (docs/files.md). `maps`: by readMaps(); `crs`: as for MapCrs, or "local" or empty for the frame `map`. Throws
+/// UserError for other values, DataError if a map has no GPS fixes for georeferencing.
 void writeGeoPackage(urban_nav_store::Store& store,
                      const std::vector<std::vector<urban_nav_store::StoredTrajectory>>& maps, const std::string& path,
                      const std::string& crs);

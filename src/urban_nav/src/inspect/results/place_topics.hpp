@@ -6,8 +6,7 @@
 
 namespace urban_nav {
 
-/// Writes where each place was that place recognition has used, and the thumbnail of each place, at their stamps.
-/// Nothing without places.
+/// Writes position and thumbnail of each place of place recognition at its stamp. No effect without places.
 void writePlaceTopics(urban_nav_store::Store& store, const RecordedMap& map, BagWriter& recording);
 
 }  // namespace urban_nav

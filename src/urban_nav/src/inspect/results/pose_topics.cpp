@@ -41,7 +41,7 @@ Matrix6d bothRotations(const urban_nav_core::Matrix3d& R) {
   return both;
 }
 
-/// Sets the mean velocity since the node before, in the axes of base_link at this node.
+/// Sets the mean velocity since the previous node, in the axes of base_link at this node.
 void setMeanTwist(const Node& before, const Node& node, nav_msgs::Odometry& message) {
   const double seconds = urban_nav_core::secondsBetween(before.stamp, node.stamp);
   if (seconds <= 0.0) return;
@@ -53,7 +53,7 @@ void setMeanTwist(const Node& before, const Node& node, nav_msgs::Odometry& mess
                           message);
 }
 
-/// Returns the stage that made the steps of a session: "swf_vo"; empty without steps.
+/// Returns the source of the odometry steps of a session: "swf_vo"; empty without steps.
 std::string odometrySource(urban_nav_store::Store& store, const urban_nav_store::SessionId& session) {
   std::string source;
   store.graph().forEachEdge(session, [&](const urban_nav_store::Edge& edge) {
@@ -62,7 +62,7 @@ std::string odometrySource(urban_nav_store::Store& store, const urban_nav_store:
   return source;
 }
 
-/// Writes what a recording has of each pose of a session.
+/// Writes the messages for each pose of a session.
 class SessionPoses {
  public:
   SessionPoses(urban_nav_store::Store& store, const RecordedMap& map, const StoredTrajectory& session,

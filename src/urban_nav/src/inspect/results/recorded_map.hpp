@@ -10,16 +10,16 @@
 
 namespace urban_nav {
 
-/// The sessions of one map of a store that have poses, as a recording of the results shows them.
+/// The sessions with poses of one map of a store, for a recording of the results.
 class RecordedMap {
  public:
   explicit RecordedMap(const std::vector<urban_nav_store::StoredTrajectory>& map);
 
   bool empty() const { return sessions_.empty(); }
   const std::vector<urban_nav_store::StoredTrajectory>& sessions() const { return sessions_; }
-  /// Returns the frame of the poses: `map`, or `odom` for a session that no pose graph has relaxed or joined.
+  /// Returns the frame of the poses: `map`, or `odom` for a session that was neither relaxed nor joined.
   const std::string& frame() const { return frame_; }
-  /// Return the stamps of the first and the last pose, ns. Require a map that is not empty.
+  /// Return the stamps of the first and the last pose, ns. Require a non-empty map.
   urban_nav_core::StampNs first() const { return first_; }
   urban_nav_core::StampNs last() const { return last_; }
   /// Returns T_map_base between the two poses around a stamp; nullopt for another session, and outside of its poses.

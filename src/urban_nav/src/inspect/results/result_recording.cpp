@@ -49,7 +49,7 @@ void writeTiles(Store& store, const RecordedMap& map, double memory_mb, BagWrite
   });
 }
 
-/// Returns how many poses of the odometry of each session have each health.
+/// Returns the number of odometry poses by health for each session.
 std::vector<StageFigures> storedFigures(Store& store, const RecordedMap& map) {
   std::vector<StageFigures> figures;
   for (const StoredTrajectory& session : map.sessions()) {

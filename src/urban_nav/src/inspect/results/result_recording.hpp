@@ -9,16 +9,16 @@
 
 namespace urban_nav {
 
-/// Writes what a store holds of each map as MCAP: poses, transforms, closures, places, the points of the map, each at
-/// its stamp, and at the last pose diagnostics with the figures of the stages, or without any with the health of the
-/// odometry. The first map goes to `path`, those that did not join it to PATH_2 and so on. Returns the files.
-/// `memory_mb`: of the command. Throws DataError if there are no poses.
+/// Writes each map of a store as MCAP: poses, transforms, closures, places and points, each at its stamp, and at the
+/// last pose diagnostics with the figures of the stages, or else with the health of the odometry. The first map goes to
+/// `path`, separate maps to PATH_2 and so on. Returns the files. `memory_mb`: limit of the command. Throws DataError
+/// without poses.
 std::vector<std::string> recordResults(urban_nav_store::Store& store,
                                        const std::vector<std::vector<urban_nav_store::StoredTrajectory>>& maps,
                                        const std::string& path, double memory_mb,
                                        const std::vector<StageFigures>& figures);
 
-/// As recordResults(), for all sessions of a store (a ResultRecorder).
+/// Calls recordResults() for all sessions of a store (a ResultRecorder).
 std::vector<std::string> recordAllResults(urban_nav_store::Store& store, const std::string& path, double memory_mb,
                                           const std::vector<StageFigures>& figures);
 

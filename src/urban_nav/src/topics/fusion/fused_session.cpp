@@ -18,9 +18,9 @@ using urban_nav_core::Vector6d;
 
 namespace {
 
-constexpr double kNotableScale = 0.003;   // relative: a calibration target measures a baseline better than that
+constexpr double kNotableScale = 0.003;   // relative; a calibration target measures a baseline more accurately
 constexpr double kNotableMounting = 0.5;  // deg
-constexpr double kDeviations = 3.0;       // sigmas from its prior that are worth a sentence
+constexpr double kDeviations = 3.0;       // sigmas from the prior above which a constant is reported
 
 std::vector<RelativePose> listSteps(const SessionOdometry& run) {
   std::vector<RelativePose> steps;
@@ -28,11 +28,11 @@ std::vector<RelativePose> listSteps(const SessionOdometry& run) {
   return steps;
 }
 
-/// Covariance of the pose relative to the first one along a chain of steps: drifts, the errors of both ends, and
-/// constants that all steps share.
+/// Covariance of the pose relative to the first one along a chain of steps: drifts, errors of both ends, and constants
+/// common to all steps.
 class PathCovariance {
  public:
-  /// Returns the covariance after a further step, parent frame: the first pose.
+  /// Appends a step. Returns the covariance in the frame of the first pose.
   Matrix6d append(const RelativePose& step) {
     const Matrix6d to_first = urban_nav_core::adjoint(T_first_) * urban_nav_core::leftFromBox(step.T_from_to);
     const Matrix6d half = transformCovariance(to_first, 0.5 * step.covariance);
@@ -93,9 +93,8 @@ std::vector<std::string> conflictSentences(const SessionOdometry& fused) {
           " stretches of 1 s, most between " + since(worst->from) + " and " + since(worst->to) + " s: by " +
           formatNumber(worst->distance_m, 3) + " m and " + formatNumber(worst->angle_rad * 180.0 / M_PI, 3) + " deg, " +
           formatNumber(std::sqrt(worst->statistic / 6.0), 3) +
-          " times what both state. One of them is wrong there, and the covariance is enlarged. Compare --odometry "
-          "stereo and "
-          "--odometry laser, and check clocks and mounting"};
+          " times their combined standard deviation. One of them is wrong there, and the covariance is enlarged. "
+          "Compare --odometry stereo and --odometry laser, and check clocks and mounting"};
 }
 
 std::vector<std::string> constantSentences(const SessionOdometry& fused) {
@@ -105,13 +104,13 @@ std::vector<std::string> constantSentences(const SessionOdometry& fused) {
     if (std::abs(constant.value) < kDeviations * constant.sigma) continue;
     const double degrees = constant.value * 180.0 / M_PI;
     if (constant.name == "scale" && std::abs(constant.value) > kNotableScale)
-      sentences.push_back(fused.input + ": lengths by stereo are " + formatNumber(-100.0 * constant.value, 3) +
+      sentences.push_back(fused.input + ": stereo lengths are " + formatNumber(-100.0 * constant.value, 3) +
                           " % too large (+-" + formatNumber(100.0 * constant.sigma, 2) +
-                          " %) against the LiDAR and are corrected; check baseline and focal length");
+                          " %) compared with the LiDAR and are corrected; check baseline and focal length");
     if (constant.is_applied && constant.name.rfind("mounting_", 0) == 0 && std::abs(degrees) > kNotableMounting)
-      sentences.push_back(fused.input + ": the LiDAR is turned by " + formatNumber(degrees, 3) + " deg (+-" +
+      sentences.push_back(fused.input + ": the LiDAR is rotated by " + formatNumber(degrees, 3) + " deg (+-" +
                           formatNumber(constant.sigma * 180.0 / M_PI, 2) + ") about " + constant.name.back() +
-                          " of base_link against its mounting in tf, and is corrected in the odometry");
+                          " of base_link relative to its mounting in tf, which is corrected in the odometry");
   }
   return sentences;
 }

@@ -8,11 +8,11 @@
 
 namespace urban_nav {
 
-/// Returns the odometry of a session from those by stereo and by laser: the frames of `stereo` with fused poses and
-/// covariances. The first pose is that by stereo.
+/// Fuses stereo and laser odometry of a session. Returns the frames of `stereo` with fused poses and covariances; the
+/// first pose is that of `stereo`.
 SessionOdometry fuseSession(const SessionOdometry& stereo, const SessionOdometry& laser);
 
-/// Returns the conflicts of a fused session as sentences for the user, the largest one with its place; empty if none.
+/// Returns the conflicts of a fused session as sentences for the user, the largest one with its time; empty if none.
 std::vector<std::string> conflictSentences(const SessionOdometry& fused);
 /// Returns a note on constants whose prior the comparison contradicts, such as a wrong baseline; empty if none.
 std::vector<std::string> constantSentences(const SessionOdometry& fused);

@@ -16,18 +16,18 @@ namespace {
 constexpr double kNotableSpread = 2.0;  // mean squared distance over its expectation
 constexpr double kDegPerRad = 180.0 / M_PI;
 
-/// A constant in words and in the unit that a user knows it by.
+/// Returns name, value, sigma and unit of a constant for the user.
 std::vector<std::string> constantRow(const SharedConstant& constant) {
   const auto row = [&](const std::string& name, double unit, double offset, const std::string& unit_name) {
     return std::vector<std::string>{name, formatNumber(offset + unit * constant.value, 5),
                                     formatNumber(unit * constant.sigma, 2), unit_name};
   };
-  if (constant.name == "scale") return row("true length over that by stereo", 1.0, 1.0, "");
+  if (constant.name == "scale") return row("ratio of true to stereo length", 1.0, 1.0, "");
   if (constant.name == "disparity") return row("disparity offset", 1.0, 0.0, "px");
-  if (constant.name == "laser_scale") return row("true length over that by laser", 1.0, 1.0, "");
+  if (constant.name == "laser_scale") return row("ratio of true to laser length", 1.0, 1.0, "");
   if (constant.name.rfind("mounting_", 0) == 0)
     return row(std::string("rotation of the LiDAR about ") + constant.name.back() +
-                   (constant.is_applied ? "" : " (not contradicted: kept)"),
+                   (constant.is_applied ? "" : " (not significant: kept)"),
                kDegPerRad, 0.0, "deg");
   return row(constant.name, 1.0, 0.0, "");
 }
@@ -38,11 +38,11 @@ std::string fusionSentence(const SessionOdometry& fused) {
   StepCounts counts;
   addSteps(fused, counts);
   std::string text = "odometry: " + std::to_string(counts.both) + " steps by stereo and laser, " +
-                     std::to_string(counts.stereo) + " by stereo alone, " + std::to_string(counts.laser) +
-                     " by laser alone, " + std::to_string(counts.none) + " by none";
+                     std::to_string(counts.stereo) + " by stereo only, " + std::to_string(counts.laser) +
+                     " by laser only, " + std::to_string(counts.none) + " predicted";
   if (const SharedConstant* scale = findConstant(*fused.fusion, "scale"))
-    text +=
-        "; true length over stereo's " + formatNumber(1.0 + scale->value, 5) + " +- " + formatNumber(scale->sigma, 2);
+    text += "; ratio of true to stereo length " + formatNumber(1.0 + scale->value, 5) + " +- " +
+            formatNumber(scale->sigma, 2);
   return text;
 }
 
@@ -51,23 +51,23 @@ Section fusionSection(const SessionOdometry& fused) {
   addSteps(fused, counts);
   Section section{"fusion",
                   "Stereo and laser together",
-                  "The path is estimated from both odometries, each weighted by its covariance. What they share is "
-                  "estimated from their differences.",
+                  "The path is estimated from both odometries, each weighted by its covariance. Their common constants "
+                  "are estimated from their differences.",
                   {},
                   {},
                   {}};
-  PageTable constants{"Shared constants",
+  PageTable constants{"Common constants",
                       {"constant", "value", "one standard deviation", "unit"},
                       {},
-                      "The LiDAR's mounting is relative to the transform that the recording gives."};
+                      "The mounting of the LiDAR is relative to its transform in the recording."};
   for (const SharedConstant& constant : fused.fusion->shared) constants.rows.push_back(constantRow(constant));
   section.tables.push_back(constants);
   section.tables.push_back({"Steps",
                             {"measured by", "steps"},
                             {{"stereo and laser", std::to_string(counts.both)},
-                             {"stereo alone", std::to_string(counts.stereo)},
-                             {"laser alone", std::to_string(counts.laser)},
-                             {"none, predicted", std::to_string(counts.none)}},
+                             {"stereo only", std::to_string(counts.stereo)},
+                             {"laser only", std::to_string(counts.laser)},
+                             {"neither (predicted)", std::to_string(counts.none)}},
                             ""});
   return section;
 }
@@ -75,13 +75,13 @@ Section fusionSection(const SessionOdometry& fused) {
 std::vector<Verdict> fusionVerdicts(const SessionOdometry& fused) {
   const double spread = fused.fusion->spread;
   const std::string differences = "Their differences are " + formatNumber(std::sqrt(spread), 3) +
-                                  " times as large as their covariances allow on average" +
-                                  (spread > 1.0 ? ", by which all standard deviations were enlarged." : ".");
+                                  " times their expected size on average" +
+                                  (spread > 1.0 ? "; all standard deviations are scaled by this factor." : ".");
   if (!fused.fusion->conflicts.empty())
     return {{Grade::Bad, "Stereo and laser contradict each other in places.",
              std::to_string(fused.fusion->conflicts.size()) + " stretches of 1 s. " + differences}};
   if (spread > kNotableSpread)
-    return {{Grade::Fair, "Stereo and laser differ by more than their covariances allow.", differences}};
+    return {{Grade::Fair, "Stereo and laser differ by more than expected from their covariances.", differences}};
   return {{Grade::Good, "Stereo and laser agree on the path.", differences}};
 }
 

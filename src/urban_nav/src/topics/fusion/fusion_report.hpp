@@ -9,7 +9,7 @@
 
 namespace urban_nav {
 
-/// Returns one line for the console: steps by source, and stereo's scale.
+/// Returns one line for the console: steps by source, and the scale of stereo.
 std::string fusionSentence(const SessionOdometry& fused);
 /// Requires `fused.fusion`.
 Section fusionSection(const SessionOdometry& fused);

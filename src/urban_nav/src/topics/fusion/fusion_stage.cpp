@@ -28,7 +28,7 @@ class FusionStage final : public Stage {
     for (MapSession& session : context.sessions) {
       if (!session.by_laser) continue;
       if (session.by_laser->settled.size() < 2) {
-        messages.warnings.push_back(session.info.name + ": no sweep could be registered; odometry is by stereo alone");
+        messages.warnings.push_back(session.info.name + ": no sweep could be registered; odometry is from stereo only");
         continue;
       }
       const auto fused = std::make_shared<SessionOdometry>(fuseSession(*session.odometry, *session.by_laser));

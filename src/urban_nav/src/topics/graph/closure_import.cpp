@@ -34,7 +34,7 @@ Numbers toNumbers(const Closure& closure) {
           T.q().y(), T.q().z(), T.q().w(), closure.measured.information.trace()};
 }
 
-/// Returns a closure of an edit as a row of closures.csv has it.
+/// Returns the closure of an edit for a row of closures.csv.
 MetricClosure toMetricClosure(const pose_graph::Edit& edit) {
   MetricClosure closure;
   closure.a = {edit.a.session, edit.a.stamp};
@@ -56,7 +56,7 @@ class ClosureImport {
     for (const SessionOdometry* one : runs) odometry_.push_back(odometryChain(*one));
   }
 
-  /// Takes a closure of this run. `index`: in GraphRun::closures. Returns why it cannot be used; empty if it can.
+  /// Adds a closure of this run. `index`: in GraphRun::closures. Returns the reason if it cannot be used, else empty.
   std::string add(std::size_t index, const MetricClosure& offered) {
     for (const std::string* name : {&offered.a.session, &offered.b.session})
       if (findPlace(*name) == sessions_.size())
@@ -81,15 +81,15 @@ class ClosureImport {
     closure.source = offered.source;
     closure.odometry_gate = offered.odometry_gate;
     closure.measured = {T_a_b, offered.measured.information};
-    // What a file states is the same on all axes: it holds at the nearest frames as it is.
+    // The information of a file is isotropic, hence unchanged at the nearest frames.
     if (isMeasured(offered))
       closure.measured.information = urban_nav_core::transformInformation(from_offered, offered.measured.information);
     closures_.emplace(toKey(closure), std::make_pair(index, closure));
     return {};
   }
 
-  /// Takes previous closures, except those that a closure of this run replaces. Asserted ones are of another kind and
-  /// stay.
+  /// Adds previous closures, except those replaced by a closure of this run. Asserted ones are of another kind and
+  /// kept.
   void add(const std::vector<Closure>& previous) {
     std::set<Place> replaced;
     for (const auto& [key, closure] : closures_) replaced.insert(key.first);

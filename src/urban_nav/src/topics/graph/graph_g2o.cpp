@@ -35,7 +35,7 @@ G2oGraph relaxedProblem(const GraphRun& run) {
     const Pose Z = toPose(edge.Z);
     line.values = {Z.t().x(), Z.t().y(), Z.t().z(), Z.q().x(), Z.q().y(), Z.q().z(), Z.q().w()};
     Matrix6d information =
-        edge.information;  // of the rotation vector; the file has the quaternion's, which is half of it
+        edge.information;  // of the rotation vector; the file uses the vector part of the quaternion, half of it
     information.topRightCorner<3, 3>() *= 2.0;
     information.bottomLeftCorner<3, 3>() *= 2.0;
     information.bottomRightCorner<3, 3>() *= 4.0;

@@ -19,7 +19,7 @@ using urban_nav_core::Trajectory;
 namespace {
 
 constexpr std::size_t kMostRows = 500;  // closures in the table
-constexpr double kBoasts = 1.5;         // times the stated deviation: said in the report from here on
+constexpr double kBoasts = 1.5;         // ratio of actual to stated standard deviation above which it is reported
 constexpr std::array<const char*, 4> kColours = {"a", "c", "d", "b"};
 
 std::string count(std::size_t n, const char* noun) { return std::to_string(n) + " " + noun + (n == 1 ? "" : "s"); }
@@ -30,7 +30,7 @@ std::vector<PlotPoint> seenFromAbove(const Trajectory& trajectory) {
   return points;
 }
 
-/// Lines between the two ends of closures with this verdict.
+/// Returns lines between the poses of closures with this verdict.
 Series makeLinks(const GraphRun& graph, urban_nav_core::ClosureVerdict verdict, const std::string& name,
                  const std::string& colour) {
   Series series;
@@ -60,7 +60,7 @@ Plot pathsPlot(const GraphRun& graph, const std::vector<const SessionOdometry*>&
   plot.height = 420;
   plot.x_label = "x, forward at the start (m)";
   plot.y_label = "y, left (m)";
-  // Below the paths: there may be a thousand of them.
+  // Drawn below the paths, since there may be a thousand.
   plot.series.push_back(makeLinks(graph, urban_nav_core::ClosureVerdict::Rejected, "rejected", "bad"));
   plot.series.push_back(makeLinks(graph, urban_nav_core::ClosureVerdict::Waiting, "waiting", "fair"));
   plot.series.push_back(makeLinks(graph, urban_nav_core::ClosureVerdict::Accepted, "closures", "good"));
@@ -92,7 +92,7 @@ Plot costPlot(const GraphRun& graph) {
   return plot;
 }
 
-/// Seconds from the first pose of a session; the stamp itself where there is no such session.
+/// Returns seconds from the first pose of a session; the stamp for an unknown session.
 std::string timeText(const GraphRun& graph, const std::string& session, StampNs stamp) {
   const pose_graph::Track* track = graph.graph.track(session);
   if (track == nullptr || track->stamps.empty()) return session + " " + urban_nav_core::printStamp(stamp);
@@ -106,7 +106,7 @@ PageTable closuresTable(const GraphRun& graph) {
                   graph.closures.size() > kMostRows
                       ? "The first " + std::to_string(kMostRows) + " of " + std::to_string(graph.closures.size()) +
                             "; all are in closures.csv."
-                      : "All of them, in seconds from the first pose of their session; by stamps in closures.csv."};
+                      : "Times in seconds from the first pose of the session; closures.csv has the stamps."};
   for (std::size_t i = 0; i < std::min(kMostRows, graph.closures.size()); ++i) {
     const urban_nav_core::ClosureRow row = toRow(graph.closures[i], graph.assessments[i]);
     table.rows.push_back({timeText(graph, row.a.session, row.a.stamp), timeText(graph, row.b.session, row.b.stamp),
@@ -121,7 +121,7 @@ std::optional<PageTable> errorsTable(const GraphRun& graph, const std::vector<Se
                   {"session", "length (m)", "odometry, first poses aligned (m)", "relaxed (m)", "odometry, aligned (m)",
                    "relaxed (m)", "NEES before", "after"},
                   {},
-                  "Root mean squares over all poses; NEES of 6 where covariances are right."};
+                  "Root mean squares over all poses; NEES is 6 for consistent covariances."};
   for (std::size_t s = 0; s < evaluations.size(); ++s) {
     const std::optional<Evaluation>&before = evaluations[s].odometry, &after = evaluations[s].map;
     if (!before || !after) continue;
@@ -138,19 +138,21 @@ std::optional<PageTable> errorsTable(const GraphRun& graph, const std::vector<Se
 
 constexpr double kGraphDegrees = 180.0 / 3.14159265358979323846;
 
-/// By how much the first pose leans.
+/// Returns the tilt of the first pose, deg.
 double leanDeg(const pose_graph::Level& level) { return kGraphDegrees * std::acos(std::min(1.0, level.up.z())); }
 
-constexpr double kSureLevelDeg = 0.5;  // standard deviation, of a map that is called level
+constexpr double kSureLevelDeg = 0.5;  // largest standard deviation of a map reported as level
 
 Verdict levelVerdict(const pose_graph::Level& level) {
   if (!level.known())
-    return {Grade::Plain, "The map is not level.", "It stands as the first pose stood: " + level.sentence + "."};
+    return {Grade::Plain, "The map is not aligned with gravity.",
+            "Its z axis is that of the first pose: " + level.sentence + "."};
   const bool is_sure = kGraphDegrees * level.sigma < kSureLevelDeg;
-  return {is_sure ? Grade::Good : Grade::Fair, is_sure ? "The map is level." : "The map is roughly level.",
-          "The first pose leans by " + urban_nav_core::formatNumber(leanDeg(level), 2) + " deg (standard deviation " +
-              urban_nav_core::formatNumber(kGraphDegrees * level.sigma, 2) + " deg), by " +
-              (pose_graph::isFromGround(level) ? "the plane of the ground." : "gravity.")};
+  return {is_sure ? Grade::Good : Grade::Fair,
+          is_sure ? "The map is level." : "The map is level within its uncertainty.",
+          "The first pose is tilted by " + urban_nav_core::formatNumber(leanDeg(level), 2) +
+              " deg (standard deviation " + urban_nav_core::formatNumber(kGraphDegrees * level.sigma, 2) +
+              " deg), measured by " + (pose_graph::isFromGround(level) ? "the plane of the ground." : "gravity.")};
 }
 
 Json toJson(const pose_graph::Level& level) {
@@ -212,16 +214,15 @@ Section graphSection(const GraphRun& graph, const std::vector<const SessionOdome
   Section section{
       "graph",
       "Relaxation",
-      "The chain of odometry, pinched together where a place was seen again; closures that contradict the others are "
-      "left out.",
+      "Odometry, corrected by the closures at revisited places; closures that contradict the others are rejected.",
       {},
       {},
       {}};
   section.figures.push_back({"From above", renderSvg(pathsPlot(graph, runs)),
-                             "Dashed: odometry alone. Lines across: closures, by verdict.", true});
+                             "Dashed: odometry only. Thin lines: closures, by verdict.", true});
   if (graph.relaxed.accepted > 0)
     section.figures.push_back({"Cost over iterations", renderSvg(costPlot(graph), false),
-                               "The sum of weighted squares, from the first guess on.", false});
+                               "Sum of weighted squared residuals, from the initial guess.", false});
   if (const auto errors = errorsTable(graph, evaluations)) section.tables.push_back(*errors);
   if (!graph.closures.empty()) section.tables.push_back(closuresTable(graph));
   return section;
@@ -233,13 +234,13 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
   const VerdictCounts closures = graph.closureVerdicts();
   const std::string of = std::to_string(closures.accepted) + " of " + count(graph.closures.size(), "closure") +
                          " accepted, " + std::to_string(closures.rejected) + " rejected, " +
-                         std::to_string(closures.waiting) + " waiting for a second one that agrees";
+                         std::to_string(closures.waiting) + " waiting for confirmation by a second one";
   const VerdictCounts planes = graph.planeVerdicts();
-  const std::string besides = planes.accepted > 0 ? " and of the planes" : "";
+  const std::string besides = planes.accepted > 0 ? " and the planes" : "";
   if (graph.closures.empty()) {
-    made.push_back({Grade::Plain, "No closures.", "The map is that of odometry" + besides + "."});
+    made.push_back({Grade::Plain, "No closures.", "The map follows odometry" + besides + "."});
   } else if (closures.accepted == 0) {
-    made.push_back({Grade::Fair, "No closure was accepted.", of + "; the map is that of odometry" + besides + "."});
+    made.push_back({Grade::Fair, "No closure was accepted.", of + "; the map follows odometry" + besides + "."});
   } else {
     made.push_back({Grade::Good, "Relaxed over " + count(closures.accepted, "closure") + ".",
                     of + "; the cost fell from " + urban_nav_core::formatNumber(relaxed.cost_before, 4) + " to " +
@@ -247,34 +248,34 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
   }
   for (const std::string& warning :
        pose_graph::selectionWarnings(relaxed.selection, relaxed.rejected, relaxed.closures))
-    made.push_back({Grade::Fair, "Which closures are true is not certain:", warning + "."});
+    made.push_back({Grade::Fair, "The selection of closures is uncertain:", warning + "."});
   for (const pose_graph::Relaxed::Slip& slip : relaxed.slips)
-    made.push_back({Grade::Fair, "A step of odometry is left out:", toSentence(slip) + "."});
+    made.push_back({Grade::Fair, "A step of odometry is rejected:", toSentence(slip) + "."});
   if (planes.all() > 0)
     made.push_back({planes.accepted > 0 ? Grade::Good : Grade::Fair,
-                    planes.accepted > 0 ? "Planes that several passes measured hold the map together."
-                                        : "No plane that several passes measured fits the map.",
+                    planes.accepted > 0 ? "Planes measured by several passes constrain the map."
+                                        : "No plane measured by several passes is consistent with the map.",
                     std::to_string(planes.accepted) + " of " + count(planes.all(), "constraint") +
                         " accepted; they moved poses by up to " + urban_nav_core::formatNumber(graph.planes.moved, 3) +
                         " m."});
   const double boast = std::sqrt(graph.graph.odometryVariance());
   if (boast > kBoasts)
-    made.push_back({Grade::Fair,
-                    "Odometry errs " + urban_nav_core::formatNumber(boast, 2) + " times as much as it states,",
-                    "so the closures say; the covariances of this map are those of the larger errors."});
+    made.push_back(
+        {Grade::Fair,
+         "Odometry errors are " + urban_nav_core::formatNumber(boast, 2) + " times their standard deviations,",
+         "as estimated from the closures; the covariances of this map are scaled accordingly."});
   made.push_back(levelVerdict(graph.levels.front()));
   if (const double lean = kGraphDegrees * graph.graph.odometryLean(); lean > 0.0)
-    made.push_back(
-        {Grade::Good, "Roll and pitch are held by the accelerometer.",
-         "Odometry came to lean by up to " + urban_nav_core::formatNumber(lean, 2) + " deg, which is taken out."});
+    made.push_back({Grade::Good, "Roll and pitch are corrected by the accelerometer.",
+                    "The tilt drift of odometry was up to " + urban_nav_core::formatNumber(lean, 2) + " deg."});
   const std::size_t joined = graph.sessionsJoined();
   if (graph.sessions.size() > 1)
     made.push_back(
         {joined == graph.sessions.size() ? Grade::Good : Grade::Fair,
          joined == graph.sessions.size()
-             ? "All sessions are one map."
-             : std::to_string(graph.sessions.size() - joined) + " sessions are maps of their own.",
-         std::to_string(joined) + " of " + std::to_string(graph.sessions.size()) + " sessions lie in one frame."});
+             ? "All sessions are in one map."
+             : std::to_string(graph.sessions.size() - joined) + " sessions are separate maps.",
+         std::to_string(joined) + " of " + std::to_string(graph.sessions.size()) + " sessions share one frame."});
   return made;
 }
 

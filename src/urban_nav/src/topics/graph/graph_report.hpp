@@ -15,7 +15,7 @@ namespace urban_nav {
 Section graphSection(const GraphRun& graph, const std::vector<const SessionOdometry*>& runs,
                      const std::vector<SessionEvaluations>& evaluations);
 
-/// Returns the main findings in plain words.
+/// Returns the main findings.
 std::vector<Verdict> graphVerdicts(const GraphRun& graph);
 
 /// Returns the object "pose_graph" of summary.json. `evaluations`: one per session, or empty.

@@ -31,14 +31,14 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-constexpr double kMetresPerRadian = 10.0;  // for display of free directions: a turn moves what is seen at this distance
+constexpr double kMetresPerRadian = 10.0;  // for display of free directions
 
 constexpr std::size_t kPlaneRounds = 2;
-constexpr double kSettled = 0.005;  // m: less does not change which planes are found, nor where
+constexpr double kSettled = 0.005;  // m: smaller moves do not change the planes found
 
-constexpr double kManyRejected = 3.0;  // one fix of so many: said to the user
-constexpr double kOptimistic = 2.0;    // times the stated deviation: likewise
-constexpr double kImplausible = 3.0;   // times odometry's stated deviations
+constexpr double kManyRejected = 3.0;  // one of this many fixes rejected is reported
+constexpr double kOptimistic = 2.0;    // ratio to the stated standard deviation that is reported
+constexpr double kImplausible = 3.0;   // ratio to the standard deviations of odometry that is reported
 
 using Clock = std::chrono::steady_clock;
 
@@ -46,8 +46,8 @@ double millisecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-/// Copies the verdicts of the graph. `previous`: how many of the closures are of previous runs; those that a new one
-/// replaces are removed.
+/// Copies the verdicts of the graph. `previous`: number of closures of previous runs; those replaced by a new one are
+/// removed.
 void assessClosures(GraphRun& run, std::size_t previous) {
   std::vector<MetricClosure> closures;
   std::vector<ClosureAssessment> assessments;
@@ -82,7 +82,7 @@ pose_graph::Relaxed relaxGraph(PoseGraph& graph, const std::vector<const Session
   return graph.take(batch);
 }
 
-/// As relaxGraph(), with what edits demand.
+/// Calls relaxGraph() with the constraints of edits.
 void relax(GraphRun& run, pose_graph::EditedGraph& edited, const std::vector<const SessionOdometry*>& runs,
            const SessionGrounds& grounds);
 
@@ -102,8 +102,7 @@ double largestMove(const std::vector<Track>& before, const std::vector<Track>& a
   return largest;
 }
 
-/// Sorts constraints from planes by their poses, so that what is relaxed with them does not depend on where they come
-/// from.
+/// Sorts constraints from planes by their poses, so that the relaxation does not depend on their origin.
 void sortPlanes(const GraphRun& run, std::vector<Closure>& planes) {
   const auto place = [&](const pose_graph::NodeRef& ref) {
     const auto found = std::find(run.sessions.begin(), run.sessions.end(), ref.session);
@@ -119,7 +118,7 @@ void addPlanes(GraphRun& run, std::vector<Closure> planes) {
   for (const Closure& plane : planes) run.graph.addClosure(plane);
 }
 
-/// Relaxes again with what the planes of the relaxed map tell, until that no longer moves it.
+/// Relaxes again with constraints from the planes of the relaxed map, until the map no longer moves.
 void relaxWithPlanes(GraphRun& run, pose_graph::EditedGraph& edited, const std::vector<const SessionOdometry*>& runs,
                      const SessionGrounds& grounds, const PlaneFinder& find_planes) {
   const auto begin = Clock::now();
@@ -152,7 +151,7 @@ VerdictCounts countVerdicts(const PoseGraph& graph, bool of_planes) {
   return counts;
 }
 
-// All sessions from one factorisation. GPS fixes are not among the edges, but they reveal errors of lengths.
+// Uses one factorisation for all sessions. GPS fixes are not edges, but reveal length errors.
 std::vector<std::vector<Matrix6d>> computeCovariances(const GraphRun& run) {
   const PoseGraph& graph = run.graph;
   const std::vector<std::string>& sessions = run.sessions;
@@ -186,7 +185,7 @@ std::vector<std::vector<Matrix6d>> computeCovariances(const GraphRun& run) {
   return made;
 }
 
-/// A session that no closure touches lies where odometry has it, and as surely.
+/// Sets covariances of sessions without closures to those of odometry.
 void leaveToOdometry(GraphRun& run, const std::vector<const SessionOdometry*>& runs) {
   std::set<std::string> touched;
   for (const auto& [id, closure] : run.graph.closures())
@@ -201,7 +200,7 @@ void leaveToOdometry(GraphRun& run, const std::vector<const SessionOdometry*>& r
   }
 }
 
-/// Returns a name of the rig of a run: the description of the cameras of the first run with the same ones.
+/// Returns a name of the rig of a run: the description of the cameras of the first run with the same cameras.
 std::string nameRig(const std::vector<const SessionOdometry*>& runs, std::size_t run) {
   const std::string cameras = describeCameras(*runs[run]);
   for (std::size_t earlier = 0; earlier < run; ++earlier) {
@@ -211,13 +210,13 @@ std::string nameRig(const std::vector<const SessionOdometry*>& runs, std::size_t
   return cameras;
 }
 
-/// What a user who asked for GPS should know of it.
+/// Adds warnings about the use of GPS.
 void addFixWarnings(const pose_graph::Parameters& parameters, GraphRun& run) {
   if (!parameters.gps) return;
   const pose_graph::FixUse& use = run.graph.fixUse();
   const std::size_t all = use.used + use.rejected;
   if (all == 0) {
-    run.warnings.emplace_back("pose_graph.gps: no GPS fix at the time of a pose; nothing was made of it");
+    run.warnings.emplace_back("pose_graph.gps: no GPS fix at the time of a pose; GPS is not used");
     return;
   }
   if (use.unplaced > 0)
@@ -241,11 +240,11 @@ void addSelectionWarnings(GraphRun& run) {
   for (const pose_graph::Relaxed::Slip& slip : relaxed.slips) run.warnings.push_back(toSentence(slip));
   const double errs = std::sqrt(run.graph.odometryVariance());
   if (errs >= kImplausible)
-    run.warnings.push_back("the accepted closures contradict what odometry states: its errors are at least " +
-                           urban_nav_core::formatNumber(errs, 2) + " times the deviations that it states");
+    run.warnings.push_back("the accepted closures contradict the covariance of odometry: its errors are at least " +
+                           urban_nav_core::formatNumber(errs, 2) + " times its standard deviations");
 }
 
-/// As the graph has it: the first pose of a map is the identity there.
+/// Returns the trajectory in the frame of the graph, in which the first pose of a map is the identity.
 Trajectory relaxedTrack(const GraphRun& run, std::size_t session) {
   Trajectory made;
   if (const Track* track = run.graph.track(run.sessions[session]))
@@ -253,14 +252,14 @@ Trajectory relaxedTrack(const GraphRun& run, std::size_t session) {
   return made;
 }
 
-/// Mean covariance of the rotations of a session: as if all of them erred alike.
+/// Returns the mean rotation covariance of a session, assuming fully correlated errors.
 Matrix3d meanRotationCovariance(const GraphRun& run, std::size_t session) {
   Matrix3d rotations = Matrix3d::Zero();
   for (const Matrix6d& covariance : run.covariances[session]) rotations += covariance.bottomRightCorner<3, 3>();
   return rotations / static_cast<double>(std::max<std::size_t>(1, run.covariances[session].size()));
 }
 
-/// Sets the levels of maps that are not known yet, by the first session of each map whose `measured` direction is.
+/// Sets unknown levels of maps from the first session of each map with a known `measured` direction.
 template <typename Measured>
 void addLevels(const GraphRun& run, const std::vector<std::vector<Measured>>& measured, std::vector<Level>& levels) {
   for (std::size_t s = 0; s < measured.size(); ++s) {
@@ -274,7 +273,7 @@ void addLevels(const GraphRun& run, const std::vector<std::vector<Measured>>& me
   }
 }
 
-/// Returns the pose of a session in the frame of the graph at a time that it has a pose at.
+/// Returns the pose of a session in the frame of the graph. Requires a pose at this time.
 Pose poseInGraph(const GraphRun& run, const pose_graph::NodeRef& ref) {
   const Track& track = *run.graph.track(ref.session);
   const auto found = std::lower_bound(track.stamps.begin(), track.stamps.end(), ref.stamp);
@@ -287,8 +286,8 @@ std::vector<Level> estimateLevels(const GraphRun& run, const std::vector<const S
   std::vector<std::vector<urban_nav_core::SpecificForce>> forces;
   for (std::size_t s = 0; s < runs.size(); ++s) {
     forces.push_back(runs[s]->forces);
-    levels[s].sentence = relaxedTrack(run, s).empty() ? "the session has no two poses"
-                                                      : "no accelerometer was recorded, nor the ground seen";
+    levels[s].sentence = relaxedTrack(run, s).empty() ? "the session has fewer than two poses"
+                                                      : "no accelerometer and no ground plane were measured";
   }
   addLevels(run, forces, levels);
   addLevels(run, grounds, levels);
@@ -396,8 +395,8 @@ GraphRun runGraph(const pose_graph::Parameters& parameters, const std::vector<co
   for (const std::string& warning : edited.warnings()) made.warnings.push_back(warning);
   for (std::size_t s = 1; s < sessions.size(); ++s)
     if (made.findMap(s) == s)
-      made.warnings.push_back("session " + sessions[s] + " is a map of its own: no closures that agree join it to " +
-                              (s == 1 ? sessions[0] : "one before it"));
+      made.warnings.push_back("session " + sessions[s] + " is a separate map: no consistent closures join it to " +
+                              (s == 1 ? sessions[0] : "an earlier session"));
   const urban_nav_core::Status status = made.graph.status();
   if (status.reason == static_cast<int>(pose_graph::Trouble::BrokenChain)) made.warnings.push_back(status.sentence);
   return made;

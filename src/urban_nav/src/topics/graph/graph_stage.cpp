@@ -26,9 +26,9 @@ namespace urban_nav {
 namespace {
 
 constexpr double kDegreesPerRadian = 57.29577951308232;
-constexpr double kLevelDeg = 5.0;  // standard deviation of a map that is called aligned
+constexpr double kLevelDeg = 5.0;  // largest standard deviation of a map reported as aligned
 
-/// Leaves out the closures of earlier runs that this one finds anew. Those of a file and asserted ones stay.
+/// Removes the closures of earlier runs that this run finds again. Keeps those of a file and asserted ones.
 void forgetFoundAnew(PreviousClosures& closures) {
   PreviousClosures others;
   for (std::size_t i = 0; i < closures.in_graph.size(); ++i) {
@@ -39,8 +39,7 @@ void forgetFoundAnew(PreviousClosures& closures) {
   closures = std::move(others);
 }
 
-/// Returns the closures that the store holds between previous sessions and continued ones, as far as this run does not
-/// find them anew.
+/// Returns the stored closures between previous and continued sessions that this run does not find again.
 PreviousClosures previousClosures(const MapContext& context) {
   const std::vector<urban_nav_store::SessionId> all = context.ids();
   std::vector<bool> has_closures(all.size());
@@ -59,13 +58,13 @@ PreviousClosures previousClosures(const MapContext& context) {
   return closures;
 }
 
-/// Returns whether the stage loops has accepted the closure, by ICP.
+/// Returns whether stage loops accepted the closure by ICP.
 bool isMeasuredByIcp(const urban_nav_core::MetricClosure& closure) {
   return isMeasured(closure) && closure.verdict == urban_nav_core::ClosureVerdict::Accepted &&
          closure.method == urban_nav_core::ClosureMethod::Icp;
 }
 
-/// Returns the normals of the ground that dense stereo has stored, over all sessions.
+/// Returns the stored ground normals of dense stereo, over all sessions.
 SessionGrounds readGrounds(const MapContext& context) {
   SessionGrounds grounds;
   for (const urban_nav_store::SessionId& id : context.ids())
@@ -73,7 +72,7 @@ SessionGrounds readGrounds(const MapContext& context) {
   return grounds;
 }
 
-/// Returns the GPS fixes of all sessions that the store holds.
+/// Returns the stored GPS fixes of all sessions.
 SessionFixes readFixes(const MapContext& context) {
   SessionFixes fixes;
   for (const urban_nav_store::SessionId& id : context.ids())
@@ -144,7 +143,7 @@ class GraphStage final : public Stage {
  private:
   static bool usesGps(const MapContext& context) { return context.options.parameters.get(pose_graph::table()).gps; }
 
-  /// Returns how to find constraints from planes in the scans; empty: they are not searched.
+  /// Returns the function that finds constraints from planes in the scans; empty: no search.
   static PlaneFinder makePlaneFinder(MapContext& context) {
     const laser_mapper::Parameters& parameters = context.options.parameters.get(laser_mapper::table());
     if (!isRequested(context.options, "lasers") || !parameters.constraints) return {};
@@ -160,7 +159,7 @@ class GraphStage final : public Stage {
     const double sigma_deg = kDegreesPerRadian * level.sigma;
     const std::string sigma = urban_nav_core::formatNumber(sigma_deg, 2) + " deg";
     if (sigma_deg < kLevelDeg) return "map aligned with " + by + " (sigma " + sigma + ")";
-    return "map roughly upright: the direction of " + by + " is known to " + sigma + " only";
+    return "map aligned with " + by + " only to " + sigma + " (sigma)";
   }
 
   std::vector<std::string> describeRun() const {
@@ -179,7 +178,7 @@ class GraphStage final : public Stage {
       lines.push_back("planes of the lasers: " + std::to_string(planes.all()) + " constraints, " +
                       std::to_string(planes.accepted) + " accepted" +
                       (run_->planes.shared > 0 ? ", " + std::to_string(run_->planes.shared) +
-                                                     " discounted for ICP closures by the same beams"
+                                                     " discounted since ICP closures use the same beams"
                                                : "") +
                       "; poses moved by up to " + urban_nav_core::formatNumber(run_->planes.moved, 3) + " m in " +
                       urban_nav_core::formatNumber(1e-3 * run_->planes.ms, 3) + " s");

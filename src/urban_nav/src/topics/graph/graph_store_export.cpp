@@ -32,7 +32,7 @@ std::string toEvidence(const MetricClosure& closure, const ClosureAssessment& as
   return printClosureRows({closure}, {assessment}) + closure.evidence;
 }
 
-/// A candidate without a transform: there for its evidence alone.
+/// Stores a candidate without a transform, for its evidence only.
 void putRejected(Store& store, const GraphRun& run, const std::vector<SessionId>& ids, const MetricClosure& closure,
                  const ClosureAssessment& assessment) {
   const auto known = [&](const std::string& name) {

@@ -8,16 +8,16 @@
 
 namespace urban_nav {
 
-/// Writes what a relaxation has made of the closures and poses that a store holds: verdicts, poses in `map` with their
-/// covariances, an anchor for each session, graph.g2o, and the closures of edits in place of earlier ones. Other
-/// closures stay. `ids`: the store's keys of run.sessions; `revision`: the highest of their poses. Does not commit.
+/// Updates the closures and poses of a store by a relaxation: verdicts, poses in `map` with their covariances, an
+/// anchor for each session, graph.g2o, and the closures of edits, replacing earlier ones. Other closures are kept.
+/// `ids`: store keys of run.sessions; `revision`: the highest of their poses. Does not commit.
 void storeRelaxation(urban_nav_store::Store& store, const std::vector<urban_nav_store::SessionId>& ids,
                      const GraphRun& run, std::int64_t revision);
 
 /// Writes the result of a relaxation to a store: a pose in `map` with its covariance for every node, each closure of
-/// the graph as an edge with its verdict, an anchor for each session, and graph.g2o. `ids`: the store's keys of
-/// run.sessions. Replaces closures and poses of an earlier relaxation of these sessions; `revision`: the highest of
-/// theirs. The evidence of a closure is the row of closures.csv with which it was added. Does not commit.
+/// the graph as an edge with its verdict, an anchor for each session, and graph.g2o. `ids`: store keys of
+/// run.sessions. Replaces closures and poses of an earlier relaxation of these sessions, whose highest revision is
+/// `revision`. The evidence of a closure is its row of closures.csv. Does not commit.
 void exportGraph(urban_nav_store::Store& store, const std::vector<urban_nav_store::SessionId>& ids, const GraphRun& run,
                  std::int64_t revision = 0);
 

@@ -8,8 +8,8 @@
 
 namespace urban_nav {
 
-/// Replaces the trajectories of odometry, one per session of the graph, by those of its maps. A session without a
-/// single step keeps its one pose of odometry.
+/// Replaces the odometry trajectories, one per session of the graph, by those of its maps. A session without steps
+/// keeps its single pose of odometry.
 std::vector<SessionTrajectory> relaxedTrajectories(const GraphRun& graph, std::vector<SessionTrajectory> odometry);
 
 }  // namespace urban_nav

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kPlaneSource = "laser_mapper";
 
-/// Returns the accepted closures by ICP among `sessions`, by their places there.
+/// Returns the accepted closures by ICP among `sessions`, by their indices there.
 std::vector<CloudClosure> acceptedByIcp(const GraphRun& run, const std::vector<std::size_t>& sessions) {
   const auto place = [&](const std::string& name) {
     return static_cast<std::size_t>(
@@ -47,7 +47,7 @@ pose_graph::Closure toClosure(const PlaneConstraint& constraint, const std::stri
   return closure;
 }
 
-/// What odometry states of its drift along a session, as much larger as the closures of the graph show it to be.
+/// Returns the drift of odometry along a session, scaled by the variance factor estimated from the closures.
 laser_mapper::OdometryDrift readDrift(const pose_graph::PoseGraph& graph, const std::string& session) {
   laser_mapper::OdometryDrift drift;
   for (std::size_t t = 0; t < graph.tracks().size(); ++t) {

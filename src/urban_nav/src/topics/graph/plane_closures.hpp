@@ -10,10 +10,10 @@
 
 namespace urban_nav {
 
-/// Finds constraints between poses of a relaxed graph from planes that the lasers measured in several passes, in each
-/// of its maps. `ids`: the store's keys of run.sessions. A file beside the store is written and removed.
-/// `cloud_half_length`: of the clouds that ICP closures rest on, m along the path; constraints have lost what an
-/// accepted one tells from the same beams, since shared information counts once. Throws the errors of the store.
+/// Finds constraints between poses of a relaxed graph from planes measured by the lasers in several passes, in each of
+/// its maps. `ids`: store keys of run.sessions. Uses a temporary file next to the store. `cloud_half_length`: of the
+/// clouds of ICP closures, m along the path; the information that an accepted ICP closure has from the same beams is
+/// removed from the constraints, so that it is not counted twice. Throws the errors of the store.
 PlaneClosures findPlaneClosures(const laser_mapper::Parameters& parameters, urban_nav_store::Store& store,
                                 const std::vector<urban_nav_store::SessionId>& ids, const GraphRun& run,
                                 double cloud_half_length);

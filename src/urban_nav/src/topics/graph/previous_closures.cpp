@@ -24,7 +24,7 @@ using urban_nav_store::Store;
 
 namespace {
 
-/// Returns the row of closures.csv that the evidence of an edge begins with; nullopt: it begins with something else.
+/// Returns the row of closures.csv at the beginning of the evidence of an edge; nullopt for other evidence.
 std::optional<ClosureRow> findRow(Store& store, const Edge& edge) {
   const std::optional<std::string> evidence = store.graph().evidence(edge);
   if (!evidence) return std::nullopt;
@@ -44,7 +44,7 @@ ClosureMethod toMethod(EdgeKind kind) {
   return kind == EdgeKind::Icp ? ClosureMethod::Icp : ClosureMethod::None;
 }
 
-/// Returns whether odometry allows a measured transform, by the evidence of the stage that measured it.
+/// Returns whether a measured transform passed the odometry gate, according to its evidence.
 bool passedGate(const std::string& evidence) {
   if (pose_graph::passedOdometryGate(evidence)) return true;
   const std::string_view its = loop_metric::evidenceIn(evidence);
@@ -55,7 +55,7 @@ bool passedGate(const std::string& evidence) {
   });
 }
 
-/// Returns the closure as it was offered where the store has that, otherwise as it is in the graph.
+/// Returns the closure as it was added, if stored, otherwise as it is in the graph.
 MetricClosure toOffered(Store& store, const Edge& edge, const pose_graph::Closure& closure) {
   ClosureRow row;
   row.a.stamp = edge.a.stamp;
@@ -84,7 +84,7 @@ PreviousClosures closuresBetween(Store& store, const std::vector<SessionId>& ids
     store.graph().forEachEdge(id, [&](const Edge& edge) {
       if (edge.kind != EdgeKind::Odometry && name.count(edge.b.session) > 0 &&
           !urban_nav_store::isOfEdit(edge.source) &&
-          !edge.measured.information.isZero(0.0))  // what was never measured is there for its evidence alone
+          !edge.measured.information.isZero(0.0))  // unmeasured edges are stored only for their evidence
         edges.push_back(edge);
     });
     for (const Edge& edge : edges) {

@@ -10,15 +10,15 @@
 
 namespace urban_nav {
 
-/// Closures between stored sessions that earlier runs have added to the graph; sessions by their names.
+/// Closures between stored sessions in the graph of earlier runs; sessions by their names.
 struct PreviousClosures {
-  std::vector<urban_nav_core::MetricClosure> offered;  ///< as the earlier run has read or measured each
+  std::vector<urban_nav_core::MetricClosure> offered;  ///< as read or measured by the earlier run
   std::vector<pose_graph::Closure> in_graph;           ///< one for each of `offered`
   std::vector<pose_graph::Closure> planes = {};        ///< constraints from planes
 };
 
-/// Returns the closures and planes that the store holds between these sessions, asserted ones included but those of
-/// edits. `names`: one per id.
+/// Returns the stored closures and planes between these sessions, including asserted ones, without those of edits.
+/// `names`: one per id.
 PreviousClosures closuresBetween(urban_nav_store::Store& store, const std::vector<urban_nav_store::SessionId>& ids,
                                  const std::vector<std::string>& names);
 

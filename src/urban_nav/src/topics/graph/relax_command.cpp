@@ -44,7 +44,7 @@ Start makeStart(const std::string& name) {
   return name == "identity" ? Start::Identity : Start::Auto;
 }
 
-/// TORO's files have no ending of their own; these are in use.
+/// Returns whether a name has one of the usual extensions of TORO files.
 bool endsLikeToro(const std::string& name) {
   const auto ends = [&name](const std::string& ending) {
     return name.size() >= ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
@@ -52,7 +52,7 @@ bool endsLikeToro(const std::string& name) {
   return ends(".toro") || ends(".graph");
 }
 
-/// The paper's relaxation, from where the default solver would have begun.
+/// Relaxes by the method of the paper, from the initial guess of the default solver.
 template <int D>
 pose_graph::Solution<D> relaxAlongChain(pose_graph::Problem<D> problem, const pose_graph::SolveOptions& options) {
   if (options.objective != Objective::Geodesic)
@@ -74,7 +74,7 @@ GraphCosts computeCosts(const pose_graph::Problem<D>& problem, const std::vector
           cost(problem, poses, Objective::G2o)};
 }
 
-/// Parameters of the stage, over which the options of the command prevail.
+/// Returns the parameters of the stage, overridden by the options of the command.
 pose_graph::Parameters relaxParameters(const Arguments& arguments) {
   pose_graph::Parameters parameters = loadParameters(arguments).get(pose_graph::table());
   parameters.solver = arguments.get("solver", parameters.solver);
@@ -82,7 +82,7 @@ pose_graph::Parameters relaxParameters(const Arguments& arguments) {
   return parameters;
 }
 
-/// The graph without its false priors and closures.
+/// Returns the graph without rejected priors and closures.
 template <int D>
 pose_graph::RobustSolution<D> selected(const pose_graph::FileProblem<D>& file,
                                        const pose_graph::SolveOptions& options) {
@@ -105,7 +105,7 @@ pose_graph::RobustSolution<D> selected(const pose_graph::FileProblem<D>& file,
   return robust;
 }
 
-/// Poses, and what is thought of each edge.
+/// Poses, and weight and verdict of each edge.
 template <int D>
 pose_graph::RobustSolution<D> solved(const pose_graph::FileProblem<D>& file, const pose_graph::Parameters& parameters,
                                      const pose_graph::SolveOptions& options) {
@@ -132,7 +132,7 @@ pose_graph::RobustSolution<D> solved(const pose_graph::FileProblem<D>& file, con
   return robust;
 }
 
-/// Says a warning, and keeps it for the summary.
+/// Prints warnings and keeps them for the summary.
 class Warnings {
  public:
   Warnings(Console& console, std::string name, std::vector<std::string>& kept)
@@ -174,7 +174,7 @@ void summarise(const pose_graph::FileProblem<D>& file, const pose_graph::RobustS
     report.gradient = solution.gradient;
     warnings.add(endingWarning(solution.ending, solution.iterations.size(), solution.gradient));
   }
-  // Each of a component's poses but the first hangs on one trusted edge.
+  // Each pose of a component except the first has one trusted edge.
   const std::size_t trusted = report.poses - static_cast<std::size_t>(std::max(solution.components, 1));
   if (doubted && report.edges > trusted) report.variance = robust.variance_factor;
   report.before = computeCosts(file.problem, file.problem.poses);
@@ -183,9 +183,9 @@ void summarise(const pose_graph::FileProblem<D>& file, const pose_graph::RobustS
     warnings.add(std::to_string(solution.components) + " parts that no edge connects; each stays in its own frame");
   if (solution.may_be_tangled)
     warnings.add(
-        "rotations end up far from what edges measure: there may be a better minimum, which is looked for in "
-        "smaller graphs only");
-  // A tree contradicts nothing.
+        "rotations are far from the measurements: there may be a better minimum, which is searched for in smaller "
+        "graphs only");
+  // A tree has no redundant edges, hence no residuals.
   const std::size_t parts = static_cast<std::size_t>(std::max(solution.components, 1));
   const std::size_t held = parts + std::max<std::size_t>(file.problem.fixed.size(), 1) - 1;
   if (!doubted || file.problem.edges.size() + held <= file.problem.poses.size()) return;
@@ -214,7 +214,7 @@ RelaxReport relaxFile(const G2oGraph& graph, const std::string& name, const Argu
   RelaxReport report;
   Warnings warnings(console, name, report.warnings);
   for (const auto& [tag, count] : unknownTags(graph))
-    warnings.add(std::to_string(count) + " lines " + tag + " are of an unknown kind and left out");
+    warnings.add(std::to_string(count) + " lines " + tag + " are of an unknown kind and are left out");
   const pose_graph::Parameters parameters = relaxParameters(arguments);
   pose_graph::SolveOptions options;
   options.objective = parseObjective(arguments.get("objective", "geodesic"));
@@ -282,7 +282,7 @@ Command relaxCommand() {
        {}},
       {"--objective",
        "NAME",
-       "what is minimised (default geodesic); definitions in pose_graph/README.md",
+       "objective function (default geodesic); definitions in pose_graph/README.md",
        false,
        false,
        {"geodesic", "chordal", "g2o"}},
@@ -290,22 +290,17 @@ Command relaxCommand() {
        "NAME",
        "gauss_newton (default): sparse, over the poses; relative_pcg: conjugate gradients on the transforms along the "
        "chain (Newman et al. 2009, section 5), slow, for graphs whose consecutive poses are all joined; ceres: Ceres, "
-       "as a second word on the same residuals. The last two relax the edges that --robust accepted",
+       "as an independent solver of the same residuals. The last two relax the edges that --robust accepted",
        false,
        false,
        {"gauss_newton", "relative_pcg", "ceres"}},
       {"--start",
        "NAME",
-       "first guess (default auto: the vertices, or rotations found without any guess, whichever cost less)",
+       "initial guess (default auto: the vertices, or rotations estimated without a guess, whichever costs less)",
        false,
        false,
        {"auto", "vertices", "odometry", "identity"}},
-      {"--robust",
-       "WORD",
-       "reject false closures (default on); off takes every edge as it is",
-       false,
-       false,
-       {"on", "off"}},
+      {"--robust", "WORD", "reject false closures (default on); off: use every edge", false, false, {"on", "off"}},
       {"--edges", "CSV", "write each edge's weight and verdict: from,to,weight,verdict,reason", false, false, {}},
       {"--covariance", "CSV", "write each vertex and its marginal covariance, row by row", false, false, {}},
       {"--rejected", "G2O", "write IN without the rejected edges", false, false, {}},

@@ -16,7 +16,7 @@ using urban_nav_core::G2oGraph;
 
 namespace {
 
-constexpr double kFreeTranslation = 1e6, kFreeRotation = 10.0;  // m2, rad2: as covarianceForDisplay of the core
+constexpr double kFreeTranslation = 1e6, kFreeRotation = 10.0;  // m2, rad2, as in covarianceForDisplay()
 
 std::string edgeLine(std::string from, std::string to, const EdgeAssessment& edge) {
   const bool rejected = edge.verdict == ClosureVerdict::Rejected;
@@ -29,7 +29,7 @@ pose_graph::TangentMatrix<3> shown(const pose_graph::Marginal<3>& marginal) {
 }
 pose_graph::TangentMatrix<2> shown(const pose_graph::Marginal<2>& marginal) {
   if (marginal.knowledge == pose_graph::Knowledge::Full) return marginal.covariance;
-  // In space, with the three directions that the plane has not held.
+  // Indices of x, y and yaw in the 3D tangent.
   constexpr int kInSpace[3] = {0, 1, 5};
   pose_graph::Marginal<3> space;
   space.knowledge = marginal.knowledge;

@@ -15,15 +15,15 @@ template <int D>
 std::string edgesCsv(const urban_nav_core::G2oGraph& graph, const pose_graph::FileProblem<D>& file,
                      const std::vector<pose_graph::EdgeAssessment>& assessments);
 
-/// `vertex` and its covariance, 9 numbers in the plane or 36, row by row: of T_first_vertex, of its part of the graph,
-/// or of the vertex in the frame of the file where priors or several fixed vertices give one; (rho, phi) in the axes of
-/// that frame. Directions that nothing measures have 1e6 m2 and 10 rad2.
+/// `vertex` and its covariance, 9 numbers in the plane or 36, row by row: of T_first_vertex within its part of the
+/// graph, or of the vertex in the frame of the file if priors or several fixed vertices define it; (rho, phi) in the
+/// axes of that frame. Unmeasured directions have 1e6 m2 and 10 rad2.
 template <int D>
 std::string covarianceCsv(const pose_graph::FileProblem<D>& file,
                           const std::vector<pose_graph::EdgeAssessment>& assessments,
                           const std::vector<pose_graph::Rigid<D>>& poses);
 
-/// The graph without the edges that are rejected, in the order of its lines.
+/// The graph without rejected edges, in the order of the lines of the file.
 template <int D>
 urban_nav_core::G2oGraph withoutRejected(const urban_nav_core::G2oGraph& graph, const pose_graph::FileProblem<D>& file,
                                          const std::vector<pose_graph::EdgeAssessment>& assessments);

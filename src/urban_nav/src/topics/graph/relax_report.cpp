@@ -44,13 +44,13 @@ std::string toText(const RelaxReport& report) {
   if (report.priors > 0) text += std::to_string(report.priors) + " priors\n";
   if (report.variance)
     text += "errors: " + urban_nav_core::formatNumber(std::sqrt(*report.variance), 2) +
-            " times the deviations that the information states\n";
+            " times the standard deviations of the information\n";
   text += toText("before: ", report.before) + toText("after:  ", report.after);
   if (!report.certificate) return text;
   const pose_graph::Certificate& certificate = *report.certificate;
   text += certificate.certified ? "certified: the global optimum" : "not certified: there may be a better optimum";
   if (certificate.gap)
-    text += "; no poses cost less than " + urban_nav_core::formatNumber(certificate.cost, 9) + " by more than " +
+    text += "; the cost " + urban_nav_core::formatNumber(certificate.cost, 9) + " exceeds the optimum by at most " +
             urban_nav_core::formatNumber(*certificate.gap, 2);
   return text + "\n";
 }

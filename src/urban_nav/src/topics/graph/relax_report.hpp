@@ -16,18 +16,18 @@ struct GraphCosts {
   double geodesic = 0.0, chordal = 0.0, g2o = 0.0;
 };
 
-/// What `relax` says of a run beside its files.
+/// Report of a run of `relax`.
 struct RelaxReport {
   GraphCosts before, after;
   std::size_t poses = 0, edges = 0, rejected = 0, iterations = 0;
   std::size_t landmarks = 0, landmark_edges = 0, priors = 0;
   int components = 0;
-  std::optional<double> variance;  ///< RobustSolution::variance_factor, where closures were judged
+  std::optional<double> variance;  ///< RobustSolution::variance_factor, with --robust
   std::string ending;
-  std::optional<double> gradient;  ///< Solution::gradient, where it ended early
+  std::optional<double> gradient;  ///< Solution::gradient, if terminated early
   double ms = 0.0;
-  std::optional<pose_graph::Certificate> certificate;  ///< of the accepted edges, by the chordal objective
-  std::optional<pose_graph::DeviationScales> scales;   ///< where closures were judged
+  std::optional<pose_graph::Certificate> certificate;  ///< of the accepted edges, for the chordal objective
+  std::optional<pose_graph::DeviationScales> scales;   ///< with --robust
   std::vector<std::string> warnings;
 };
 

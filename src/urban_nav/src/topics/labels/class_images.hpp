@@ -14,12 +14,12 @@
 
 namespace urban_nav {
 
-/// Class images by another source on a topic of bags, found by frame and stamp of the image that they are of, wherever
-/// they stand in the bags. Not thread-safe.
+/// Class images from another source on a topic of bags, accessed by frame and stamp of the classified image,
+/// independent of their order in the bags. Not thread-safe.
 class ClassImages {
  public:
-  /// Opens those inputs that are bags and notes where the messages of `topic` are; an empty topic: there are none.
-  /// Throws UserError if the file of the map cannot be read, DataError if a bag cannot.
+  /// Opens the bags among the inputs and indexes the messages of `topic`; an empty topic means none. Throws UserError
+  /// if the class map cannot be read, DataError if a bag cannot be read.
   ClassImages(const std::vector<std::string>& inputs, const std::string& topic, const std::string& class_file);
 
   /// Returns the classes of an image (CV_8U, SceneClass); empty if there are none, or they are not mono8.
@@ -30,7 +30,7 @@ class ClassImages {
  private:
   scene_labeler::ClassMap map_;
   std::list<urban_nav_input::Recording> recordings_;
-  std::list<urban_nav_input::RecordedMessages> messages_;  // that places_ lie in
+  std::list<urban_nav_input::RecordedMessages> messages_;  // storage of places_
   std::map<std::pair<std::string, urban_nav_core::StampNs>, urban_nav_input::RecordedMessage> places_;
 };
 

@@ -34,7 +34,7 @@ constexpr std::array<std::size_t, 2> kSideCameras = {4, 1};  // of the panoramic
 
 /// Topics of one side with its rig.
 struct SideTopics {
-  std::string scan, image;  // empty: there is none
+  std::string scan, image;  // may be empty
   scene_labeler::SideRig rig;
 };
 
@@ -65,15 +65,17 @@ std::array<SideTopics, 2> readRigs(urban_nav_input::Recording& recording, const 
       rig.rig.camera = {urban_nav_core::rawCamera(*camera.calibration, camera.topic), *camera.T_base_camera};
     }
     if (rig.image.empty())
-      console.warn(name + ": no calibrated camera on the " + toString(side) + ": its returns are labelled by shape");
+      console.warn(name + ": no calibrated camera on the " + toString(side) +
+                   ": its returns are labelled by shape "
+                   "only");
   }
   if (rigs[0].scan.empty() && rigs[1].scan.empty())
-    throw UserError(name, "has no scans of a side laser whose place on the robot is known",
+    throw UserError(name, "has no scans of a side laser with a known pose on the robot",
                     "--topic laser_left:=NAME, and static tf from base_link");
   return rigs;
 }
 
-/// Brings the messages of one side to its window.
+/// Passes the messages of one side to its window.
 class SideReader {
  public:
   SideReader(const SideTopics& topics, const Trajectory& T_world_base, const scene_labeler::TravelledPath& path,

@@ -14,15 +14,15 @@
 
 namespace urban_nav {
 
-/// Sides of the robot that a laser and a camera of the panoramic head look to.
+/// Sides of the robot covered by a laser and a camera of the panoramic head.
 enum class DriveSide : std::uint8_t { Left, Right };
 constexpr std::array<DriveSide, 2> kBothSides = {DriveSide::Left, DriveSide::Right};
 const char* toString(DriveSide side);
 
-/// How the bags of `labels` are read.
+/// Options for reading the bags of `labels`.
 struct DriveOptions {
   OdometryRunner run_odometry;
-  const ParameterSet* parameters = nullptr;  ///< of the stages that it runs
+  const ParameterSet* parameters = nullptr;  ///< of the stages
   std::vector<std::string> topics;           ///< ROLE:=NAME
   std::string trajectory;                    ///< TUM file of base_link; empty: tf of the bag, or its stereo odometry
 };
@@ -32,12 +32,12 @@ struct DriveOptions {
 urban_nav_core::Trajectory readDriveTrajectory(const std::string& bag, const DriveOptions& options, Console& console);
 
 /// Reads the returns of the side lasers of a bag, and an image of the camera of their side every
-/// `scene_labeler.spacing` along the path, and hands them to the windows of the sides. Throws UserError if the bag has
-/// no laser scans whose place on the robot is known, DataError if it cannot be read.
+/// `scene_labeler.spacing` along the path, and passes them to the windows of the sides. Throws UserError if the bag has
+/// no scans of a laser with extrinsics, DataError if it cannot be read.
 void readDrive(const std::string& bag, const DriveOptions& options, Console& console,
                const std::array<scene_labeler::DriveWindow*, 2>& windows);
 
-/// Returns whether a source is a bag by its name.
+/// Returns whether the name of a source is that of a bag.
 bool isBag(const std::string& path);
 
 }  // namespace urban_nav

@@ -43,7 +43,7 @@ class LabelClicks::Collector final : public scene_labeler::DriveObserver {
   void settle(std::size_t) override {}
 
   std::size_t added() const { return added_; }
-  /// Throws UserError for a click at a return that the bag does not have.
+  /// Throws UserError for a click on a return that is not in the bag.
   void requireAllFound(const std::string& bag) const {
     for (std::size_t click = 0; click < clicks_.size(); ++click)
       if (!is_found_[click])
@@ -98,8 +98,8 @@ std::size_t LabelClicks::addTo(const scene_labeler::LabelModel& model, const Dri
   std::size_t added = 0;
   for (const ClickedBag& clicked : bags_) {
     if (!std::filesystem::exists(clicked.bag))
-      throw UserError(clicked.bag, "does not exist", "the bags in the file of clicks");
-    std::array<scene_labeler::TrainingFold, kBothSides.size()> folds;  // in an order that does not depend on messages
+      throw UserError(clicked.bag, "does not exist", "the bags named in the file of clicks");
+    std::array<scene_labeler::TrainingFold, kBothSides.size()> folds;  // in an order independent of the messages
     Collector left(clicked.clicks[0], model, parameters.superpixel, folds[0]),
         right(clicked.clicks[1], model, parameters.superpixel, folds[1]);
     scene_labeler::DriveWindow left_window(parameters.projection_distance, left),

@@ -9,7 +9,7 @@
 
 namespace urban_nav {
 
-/// Classes that a person gave to superpixels of bags, each by one return that lies in it.
+/// Classes assigned by hand to superpixels of bags, each by one of its returns.
 class LabelClicks {
  public:
   /// Reads `bag,side,stamp_ns,beam,class[,trajectory]`: `bag` and `trajectory` are paths, from the folder of the file
@@ -18,8 +18,8 @@ class LabelClicks {
   explicit LabelClicks(const std::string& path);
 
   std::size_t size() const { return count_; }
-  /// Adds the superpixels at the clicked returns to a fold, as each frame shows them. Returns how many returns were
-  /// added. Throws UserError if a bag has no such return.
+  /// Adds the superpixels of the clicked returns in each frame to a fold. Returns the number of returns added. Throws
+  /// UserError if a bag has no such return.
   std::size_t addTo(const scene_labeler::LabelModel& model, const DriveOptions& options, Console& console,
                     scene_labeler::TrainingFold& fold) const;
 

@@ -23,7 +23,7 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-/// Of a scene of a drive, which is one of many.
+/// Limits per scene of a drive, which has many scenes.
 constexpr scene_labeler::SamplingLimits kDriveLimits{150, 1500};
 constexpr scene_labeler::SamplingLimits kVariantLimits{50, 0};
 constexpr double kLoneStretch = 40.0;  // m along the path: the folds of a bag that is the only source
@@ -71,8 +71,8 @@ class FoldBuilder final : public scene_labeler::DriveObserver {
   void settle(std::size_t) override {}
 
  private:
-  /// Adds the scene as other sensors would have it: without reflectance, and in turn without image or thinned to a
-  /// quarter. Calibration does not use it.
+  /// Adds the scene as seen by other sensors: without reflectance, and alternately without image or thinned to a
+  /// quarter. Not used for calibration.
   void addVariant(const DriveFrame& frame, const Stretch& nearest, const std::vector<DriveReturn>& returns) {
     const bool is_thinned = frames_ % 2 == 0, has_image = frames_ % 4 < 2;
     const scene_labeler::SideView view = has_image ? frame.view : scene_labeler::SideView();
@@ -172,7 +172,7 @@ void addDriveFold(const std::string& bag, const DriveOptions& options, const sce
   const DriveTruth left_truth(DriveTruth::path(bag, DriveSide::Left), map),
       right_truth(DriveTruth::path(bag, DriveSide::Right), map);
   const std::string name = std::filesystem::path(bag).stem().string();
-  std::vector<scene_labeler::TrainingFold> left_folds, right_folds;  // in an order that does not depend on the messages
+  std::vector<scene_labeler::TrainingFold> left_folds, right_folds;  // in an order independent of the messages
   FoldBuilder left(name, left_truth, features, parameters.superpixel, is_alone, left_folds),
       right(name, right_truth, features, parameters.superpixel, is_alone, right_folds);
   DriveWindow left_window(parameters.projection_distance, left), right_window(parameters.projection_distance, right);

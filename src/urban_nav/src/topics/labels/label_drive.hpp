@@ -16,7 +16,7 @@ namespace urban_nav {
 /// Classes of the returns of one side laser, of BAG_STEM.truth/laser_SIDE.csv.
 class DriveTruth {
  public:
-  /// Throws UserError if the file cannot be read, or has a label that the map does not list.
+  /// Throws UserError if the file cannot be read, or has a label that is not in the class map.
   DriveTruth(const std::string& path, const scene_labeler::ClassMap& map);
   /// Returns the path for a bag.
   static std::string path(const std::string& bag, DriveSide side);
@@ -32,12 +32,12 @@ class DriveTruth {
 using TakeDriveLabels = std::function<void(DriveSide side, const std::vector<scene_labeler::DriveReturn>& returns,
                                            const scene_labeler::SceneLabels& labels)>;
 
-/// Labels the returns of a bag and adds what that took to `run`.
+/// Labels the returns of a bag and adds the statistics to `run`.
 void labelDrive(const scene_labeler::LabelModel& model, const std::string& bag, const DriveOptions& options,
                 Console& console, const TakeDriveLabels& take, LabelRun& run);
 
-/// Measures the returns of a bag with their truth and adds them as one fold, its name that of the bag; a bag that is
-/// the only source is divided into folds along its path.
+/// Computes the features of the returns of a bag and adds them with their truth as one fold named after the bag; a bag
+/// that is the only source is divided into folds along its path.
 void addDriveFold(const std::string& bag, const DriveOptions& options, const scene_labeler::ClassMap& map,
                   scene_labeler::FeatureSet features, bool is_alone, Console& console,
                   std::vector<scene_labeler::TrainingFold>& folds);

@@ -12,10 +12,10 @@
 
 namespace urban_nav {
 
-/// What labelling some scenes took and gave.
+/// Statistics of labelling scenes.
 struct LabelRun {
   std::size_t frames = 0, points = 0, labelled = 0, unsure = 0;
-  std::size_t new_place_frames = 0;  ///< of a kind of place that the model was not trained in
+  std::size_t new_place_frames = 0;  ///< frames of kinds of places without training data
   double seconds = 0.0;              ///< of labelling, without files
   std::vector<double> milliseconds;  ///< of each scene
   bool has_look = false;             ///< whether any scene has an image
@@ -25,7 +25,7 @@ struct LabelRun {
   Json toJson() const;
 };
 
-/// Labels scenes one after another, calls take(index, labels), and adds what that took to `run`.
+/// Labels scenes one after another, calls take(index, labels), and adds the statistics to `run`.
 void labelScenes(const scene_labeler::LabelModel& model, const std::vector<SceneFiles>& scenes, int superpixel,
                  Console& console, const std::function<void(std::size_t, const scene_labeler::SceneLabels&)>& take,
                  LabelRun& run);

@@ -9,7 +9,7 @@
 
 namespace urban_nav {
 
-/// Labels compared with the truth, over the returns that have a truth; a return without an answer is wrong.
+/// Comparison of labels with the truth, over the returns with a truth; a return without a label is wrong.
 class LabelScore {
  public:
   /// `one_wall`: whether the kinds of wall count as one class.
@@ -21,12 +21,13 @@ class LabelScore {
   std::size_t points() const { return points_; }
   double accuracy() const;
   double meanF1() const;  ///< over the classes with a truth
-  /// Mean distance of stated probability and share that is right, over ten bins weighted by their returns.
+  /// Returns the mean difference between stated probability and share of correct labels, over ten bins weighted by
+  /// their returns.
   double calibrationError() const;
   /// Sets `points`, `accuracy`, `f1_mean`, `classes`, `confusion`, `sure_confusion`, `reliability`,
   /// `calibration_error`.
   void addTo(Json& json) const;
-  /// Returns a table for people.
+  /// Returns a table as text.
   std::string print() const;
 
  private:
@@ -43,10 +44,10 @@ class LabelScore {
 
   bool one_wall_;
   std::size_t points_ = 0;
-  /// Number of answers by truth and answer; kNoneIndex: no answer.
+  /// Number of labels by truth and label; kNoneIndex: no label.
   using Confusion = std::array<std::array<std::size_t, scene_labeler::kClassCount + 1>, scene_labeler::kClassCount>;
   static Json toJson(const Confusion& confusion);
-  Confusion confusion_{}, sure_confusion_{};  // of all answers, and of those that are not unsure
+  Confusion confusion_{}, sure_confusion_{};  // of all labels, and of those that are not unsure
   std::array<std::size_t, scene_labeler::kClassCount> patches_{};
   std::array<Bin, 10> bins_{};
 };

@@ -18,7 +18,7 @@ struct LabelSources {
 };
 
 /// Returns the sources of a command. `parameters` must outlive them. Throws UserError for a source that is neither a
-/// bag nor has scenes, one that is given twice, and for another number of --trajectory than of bags.
+/// bag nor has scenes, a duplicate source, and if the numbers of --trajectory and bags differ.
 LabelSources findLabelSources(const Arguments& arguments, const ParameterSet& parameters,
                               const OdometryRunner& run_odometry);
 

@@ -20,7 +20,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-/// Returns `plain`, or it with a number if a fold has that name.
+/// Returns `plain`, with a number appended if a fold has that name.
 std::string freeName(const std::string& plain, const std::vector<TrainingFold>& folds) {
   std::string name = plain;
   const auto is_taken = [&] {
@@ -90,9 +90,10 @@ void LabelTeaching::addCorrections(const scene_labeler::ClassMap& map, const Dri
   const std::string name = freeName("corrections of " + files[0].name, folds);
   const auto count = scene_labeler::addCorrections(*base_, readScene(files[0]), labels, superpixel, name, folds);
   if (count.corrected == 0)
-    throw urban_nav_core::DataError(corrections_, "no label differs from the answer of the model", "corrected labels");
+    throw urban_nav_core::DataError(corrections_, "no label differs from the prediction of the model",
+                                    "corrected labels");
   console.info(corrections_ + ": " + std::to_string(count.corrected) + " of " + std::to_string(count.labelled) +
-               " labelled points differ from the answer of the model");
+               " labelled points differ from the prediction of the model");
 }
 
 }  // namespace urban_nav

@@ -12,11 +12,11 @@
 
 namespace urban_nav {
 
-/// What `labels train` takes from a model and from corrections by hand.
+/// Input of `labels train` from a model and from manual corrections.
 class LabelTeaching {
  public:
-  /// Reads the options --add, --corrections and --features. Throws UserError for a file that is no model, a model
-  /// without samples or of other features, corrections without a model, and a command with nothing to learn.
+  /// Reads the options --add, --corrections and --features. Throws UserError for a file that is not a model, a
+  /// model without samples or with other features, corrections without a model, and a command without training data.
   explicit LabelTeaching(const Arguments& arguments);
 
   /// Returns the model that training continues from; nullptr without --add.

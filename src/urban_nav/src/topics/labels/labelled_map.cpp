@@ -33,7 +33,7 @@ std::uint8_t lasClassification(SceneClass label) {
     case SceneClass::SmoothWall:
     case SceneClass::Wall: return 6;      // building
     case SceneClass::Foliage: return 5;   // high vegetation
-    case SceneClass::Vehicle: return 64;  // first of the user's own
+    case SceneClass::Vehicle: return 64;  // first user-defined class
     default: return 1;                    // unclassified
   }
 }

@@ -19,8 +19,8 @@ urban_nav_core::PlyLayout labelledMapLayout();
 /// Appends the bytes of a label after those of its vertex.
 void appendPointLabel(std::string& bytes, const scene_labeler::PointLabel& label);
 
-/// Digest of the places of a map's points, by which labels are known to be of this map. Points come in the order of
-/// the map's tiles.
+/// Digest of the positions of the points of a map, which identifies the map of stored labels. Points are in the order
+/// of the map tiles.
 class MapPointsDigest {
  public:
   void add(const std::vector<laser_mapper::MapPoint>& points);
@@ -30,7 +30,7 @@ class MapPointsDigest {
   std::uint64_t hash_ = 0xcbf29ce484222325U;  // FNV-1a
 };
 
-/// Keeps the labels of a map in the store, with its first session.
+/// Stores the labels of a map with its first session.
 void storeMapLabels(urban_nav_store::Store& store, const urban_nav_store::SessionId& first,
                     const MapPointsDigest& digest, const std::vector<scene_labeler::PointLabel>& labels);
 /// Returns the labels of a map; nullopt if the store has none, or those of another map.

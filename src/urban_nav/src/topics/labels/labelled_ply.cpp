@@ -32,7 +32,7 @@ std::string withoutComments(const std::string& header) {
   return kept;
 }
 
-/// Returns labelledMapLayout() with the comments of an unlabelled file before its own.
+/// Returns labelledMapLayout() with the comments of an unlabelled file prepended.
 urban_nav_core::PlyLayout labelledLike(const std::string& header) {
   const std::string prefix = "comment ";
   const std::size_t own = laser_mapper::mapLayout().comments.size();
@@ -60,7 +60,7 @@ void addLabelsToPly(const std::string& path, const std::vector<scene_labeler::Po
     const std::size_t count = std::min(kVerticesAtOnce, labels.size() - begin);
     std::string block(count * vertex, '\0'), made;
     if (!file.read(block.data(), static_cast<std::streamsize>(block.size())))
-      throw urban_nav_core::DataError(path, "ends too early", "a whole map.ply");
+      throw urban_nav_core::DataError(path, "is incomplete", "a complete map.ply");
     for (std::size_t i = 0; i < count; ++i) {
       made.append(block, i * vertex, vertex);
       appendPointLabel(made, labels[begin + i]);

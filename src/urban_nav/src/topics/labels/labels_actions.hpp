@@ -5,7 +5,7 @@
 
 namespace urban_nav {
 
-/// Actions of `urban_nav labels` beside train.
+/// Actions of `urban_nav labels` other than train.
 Command labelsApplyAction(const OdometryRunner& run_odometry);
 Command labelsEvaluateAction(const OdometryRunner& run_odometry);
 

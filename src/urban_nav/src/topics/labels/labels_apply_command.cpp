@@ -101,7 +101,7 @@ SourceTruth readSourceTruth(const LabelSources& sources, const ClassMap& map) {
   return truth;
 }
 
-/// Returns whether kinds of wall are not told apart, by the model or by a scene.
+/// Returns whether the model or a scene does not distinguish kinds of wall.
 bool hasOneWall(const scene_labeler::LabelModel& model, const SourceTruth& truth) {
   const auto holds = [](const std::vector<scene_labeler::SceneClass>& classes) {
     return std::find(classes.begin(), classes.end(), scene_labeler::SceneClass::Wall) != classes.end();
@@ -183,8 +183,12 @@ Command labelsEvaluateAction(const OdometryRunner& run_odometry) {
   action.name = "evaluate";
   action.summary = "Compares the labels of a model with those in scenes.";
   action.options = modelAndScenes();
-  action.options.push_back(
-      {"--classes", "FILE", "id,class for the values of label (default: the classes' own numbers)", false, false, {}});
+  action.options.push_back({"--classes",
+                            "FILE",
+                            "id,class for the values of label (default: the numbers of the classes)",
+                            false,
+                            false,
+                            {}});
   addCommonLabelOptions(action);
   action.examples = {"urban_nav labels evaluate street.labels scenes --classes classes.csv"};
   action.run = [run_odometry](const Arguments& arguments, Console& console) {

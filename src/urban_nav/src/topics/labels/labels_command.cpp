@@ -29,7 +29,7 @@ ClassifierKind classifierFrom(const Arguments& arguments, ClassifierKind preset)
   return ClassifierKind::Boosted;
 }
 
-/// Measures scenes one after another and keeps what training draws from each.
+/// Computes the features of scenes one after another and keeps the samples of each for training.
 void readTrainingScenes(const std::vector<SceneFiles>& scenes, const ClassMap& map, FeatureSet features, int superpixel,
                         Console& console, std::vector<scene_labeler::TrainingFold>& folds) {
   if (scenes.empty()) return;
@@ -139,9 +139,9 @@ Command labelsTrainAction(const OdometryRunner& run_odometry) {
       {"-o,--output", "MODEL", "model to write", true, false, {}},
       {"--classifier", "NAME", "kind of classifier (default boosted)", false, false, {"svm", "forest", "boosted"}},
       {"--features", "NAME", "features of a return (default all)", false, false, {"paper", "all"}},
-      {"--classes", "FILE", "id,class for the values of label (default: the classes' own numbers)", false, false, {}},
-      {"--seed", "N", "of the drawn samples and features (default 1)", false, false, {}},
-      {"--add", "MODEL", "model whose samples are learnt too; SRC may be omitted with --corrections", false, false, {}},
+      {"--classes", "FILE", "id,class for the values of label (default: the numbers of the classes)", false, false, {}},
+      {"--seed", "N", "seed of the samples and features (default 1)", false, false, {}},
+      {"--add", "MODEL", "model whose samples are added; SRC may be omitted with --corrections", false, false, {}},
       {"--corrections",
        "EDITED",
        "map.ply or scene with edited column label or scalar_label, or bag,side,stamp_ns,beam,class of clicks in bags",

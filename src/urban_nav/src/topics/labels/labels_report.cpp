@@ -43,7 +43,7 @@ std::string rounded(double value, double steps) {
 }
 
 PageTable classesTable(const LabelsRun& run) {
-  PageTable table{"What the map shows", {"class", "points", "area, m2", "length, m", "mean probability"}, {}, ""};
+  PageTable table{"Classes", {"class", "points", "area, m2", "length, m", "mean probability"}, {}, ""};
   const auto extents = extentsOverMaps(run);
   for (std::size_t k = 0; k < kClassCount; ++k) {
     if (extents[k].points == 0) continue;
@@ -53,7 +53,7 @@ PageTable classesTable(const LabelsRun& run) {
                           urban_nav_core::formatNumber(meanProbability(extents[k]), 2)});
   }
   table.caption =
-      "Area: of ground, seen from above; of other surfaces, by cubes of 0.2 m. Length: of walls, seen from above.";
+      "Area: of the ground in plan view; of other surfaces by cubes of 0.2 m. Length: of walls in plan view.";
   return table;
 }
 
@@ -62,7 +62,7 @@ PageTable classesTable(const LabelsRun& run) {
 std::vector<std::string> labelsWarnings(const LabelsRun& run) {
   std::vector<std::string> warnings;
   if (run.points() > 0 && run.views() == 0)
-    warnings.emplace_back("no image of a side camera: the map is labelled by shape alone");
+    warnings.emplace_back("no image of a side camera: the map is labelled by shape only");
   if (run.unusable() > 0)
     warnings.push_back(std::to_string(run.unusable()) + " of " + std::to_string(run.views()) +
                        " images of the side cameras show no point of the map, or are black or saturated: not used");
@@ -79,14 +79,14 @@ std::vector<std::string> labelsWarnings(const LabelsRun& run) {
   const double unsure = labelShare(run.unsure(), run.labelled());
   if (unsure > kManyUnsure && new_place.empty())
     warnings.push_back(urban_nav_core::formatNumber(100.0 * unsure, 3) +
-                       " % of the labels are unsure: the place is unlike those that the model was trained on");
+                       " % of the labels are unsure: the place differs from those that the model was trained on");
   return warnings;
 }
 
 Section labelsSection(const LabelsRun& run) {
   Section section;
   section.id = "labels";
-  section.title = "What the map shows";
+  section.title = "Classes of the map";
   section.introduction = "Classes of the points of the map, with probabilities, from shape and images: " +
                          urban_nav_core::formatNumber(100.0 * labelShare(run.unsure(), run.labelled()), 3) +
                          " % of them are unsure. They are in map.ply and labels.csv.";
@@ -96,8 +96,8 @@ Section labelsSection(const LabelsRun& run) {
     section.pictures.insert(section.pictures.end(), map.pictures.begin(), map.pictures.end());
   for (const LabelledMap& map : run.maps)
     if (!map.layer.empty())
-      section.figures.push_back({"In three dimensions", map.layer,
-                                 "The view of the map shows the classes if `class` is chosen as colour.", true});
+      section.figures.push_back(
+          {"In three dimensions", map.layer, "Choose `class` as colour to show the classes.", true});
   section.tables.push_back(classesTable(run));
   return section;
 }

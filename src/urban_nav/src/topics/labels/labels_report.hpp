@@ -10,9 +10,9 @@
 
 namespace urban_nav {
 
-/// Returns the section of the report: a picture of the classes and a table of what they cover.
+/// Returns the section of the report: a picture of the classes and a table of their extents.
 Section labelsSection(const LabelsRun& run);
-/// Returns what is wrong with the data, for the console and the report.
+/// Returns defects of the data, for the console and the report.
 std::vector<std::string> labelsWarnings(const LabelsRun& run);
 /// Returns labels.csv: `class,points,area_m2,length_m,probability_mean`, over all maps.
 std::string printLabelsCsv(const LabelsRun& run);

@@ -44,7 +44,7 @@ constexpr std::array<std::int64_t, 2> kLabelledCameras = {1, 4};  // right and l
 constexpr urban_nav_core::StampNs kLongestGapOfLabelledViews = 500'000'000;
 constexpr float kExtentPerM = 5.0F;  // cubes and squares of 0.2 m
 constexpr double kAboveMargin = 25.0;
-constexpr double kRowMargin = 1.0;   // m: points may lie beside their tile, on the plane of their surroundings
+constexpr double kRowMargin = 1.0;   // m: points may be outside their tile, on the plane of their neighbourhood
 constexpr int kAboveLongest = 2000;  // px
 
 double millisecondsSince(LabelsClock::time_point begin) {
@@ -56,7 +56,7 @@ cv::Mat toImage(const urban_nav_registration::Picture& picture) {
   return cv::Mat(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.bgr.data())).clone();
 }
 
-/// Class images of the sessions of this run, whose bags are at hand.
+/// Class images of the sessions of this run, whose bags are available.
 using ClassImagesOfSessions = std::map<urban_nav_store::SessionId, ClassImages>;
 
 ClassImagesOfSessions findClassImages(const scene_labeler::Parameters& parameters, const MapContext& context) {
@@ -107,7 +107,7 @@ PlannedViews planViews(urban_nav_store::Store& store, const std::vector<laser_ma
   return planned;
 }
 
-/// Surfaces of each class: by squares of the ground and cubes.
+/// Measures the surface of each class by squares of the ground and cubes.
 class ExtentMeter {
  public:
   void add(const Eigen::Vector3f& point, const PointLabel& label) {
@@ -139,7 +139,7 @@ class ExtentMeter {
   std::array<ClassExtent, scene_labeler::kClassCount> extents_{};
 };
 
-/// Shows the classes in the view of the map that stage lasers made.
+/// Returns the layer of classes for the map view of stage lasers.
 std::string drawLayer(std::size_t view, const std::vector<PointLabel>& labels) {
   urban_nav_core::EvenThinning<unsigned char> kinds(kMostShownPoints);
   for (const PointLabel& label : labels) kinds.add(static_cast<unsigned char>(label.label));
@@ -151,7 +151,7 @@ std::string drawLayer(std::size_t view, const std::vector<PointLabel>& labels) {
   return renderMapLayer(view, "class", kinds.items(), colours);
 }
 
-/// Draws the labels and measures what they cover.
+/// Draws the labels and measures their extents.
 void describeLabels(const LaserMap& map, const std::vector<PointLabel>& labels,
                     const std::vector<urban_nav_core::Vector3d>& path, LabelledMap& made) {
   laser_mapper::MapPicture above(laser_mapper::viewFromAbove(path, kAboveMargin, kAboveLongest));

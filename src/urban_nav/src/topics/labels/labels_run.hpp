@@ -13,7 +13,7 @@
 
 namespace urban_nav {
 
-/// Extent of what a class covers in a map.
+/// Extent of a class in a map.
 struct ClassExtent {
   std::size_t points = 0;
   double area = 0.0;             ///< m2: of ground seen from above, of other surfaces by cubes of 0.2 m
@@ -21,26 +21,26 @@ struct ClassExtent {
   double probability_sum = 0.0;  ///< of the points
 };
 
-/// Labels of the map of sessions that lie in one map.
+/// Labels of a map of one or several sessions.
 struct LabelledMap {
   std::string file;  ///< "map.ply", in the output folder
   std::size_t points = 0, labelled = 0, unsure = 0;
-  std::size_t views = 0, shown = 0;  ///< images, and points that these show
+  std::size_t views = 0, shown = 0;  ///< images, and points visible in them
   std::size_t unusable = 0;          ///< images that show no point, or are black or saturated
   std::size_t upside_down = 0;       ///< images whose camera seems to be mounted upside down
-  std::size_t in_new_place = 0;      ///< images of a kind of place that the model was not trained in
-  std::size_t class_images = 0;      ///< images of which a class image of another source was used
+  std::size_t in_new_place = 0;      ///< images of kinds of places without training data
+  std::size_t class_images = 0;      ///< images with a class image from another source
   std::array<ClassExtent, scene_labeler::kClassCount> extents;
   std::vector<PagePicture> pictures;
   std::string layer;  ///< markup of the classes in the view of the map; empty without points
 };
 
-/// What stage labels made.
+/// Result of stage labels.
 struct LabelsRun {
   std::vector<LabelledMap> maps;
   std::vector<double> milliseconds;  ///< of each image
   std::string model;                 ///< digest
-  std::string class_topic;           ///< of class images of another source; empty: none are asked for
+  std::string class_topic;           ///< of class images from another source; empty: none
   double seconds = 0.0;
 
   std::size_t points() const;
@@ -53,7 +53,7 @@ struct LabelsRun {
   std::size_t classImages() const;
 };
 
-/// Labels the maps that stage lasers has left in the store and the output folder, and adds the labels to map.ply.
+/// Labels the maps of stage lasers in the store and the output folder, and adds the labels to map.ply.
 LabelsRun runLabels(const NamedLabelModel& model, MapContext& context);
 
 }  // namespace urban_nav

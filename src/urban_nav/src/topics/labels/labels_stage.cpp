@@ -27,7 +27,7 @@ class LabelsStage final : public Stage {
     if (!options.localise.empty()) return {false, "not with --localise", {}};
     if (!isRequested(options, "labels")) return {false, "not in --stages", {}};
     const scene_labeler::Parameters& parameters = options.parameters.get(scene_labeler::table());
-    // Bad files are reported before the work.
+    // Reports invalid files before the run.
     if (parameters.model != "default") readLabelModel(parameters.model);
     if (!parameters.class_file.empty()) scene_labeler::ClassMap(parameters.class_file);
     return {true, "", {"labels: model " + parameters.model}};

@@ -21,10 +21,10 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr double kFarCoordinate = 1000.0;  // m: a float is 0.06 mm coarse there
+constexpr double kFarCoordinate = 1000.0;  // m, where a float resolves 0.06 mm
 const char* const kSceneRule = "a folder of NAME_points.csv or .ply (also .gz), or one such file";
 
-/// Name of a file of returns without its extension; nullopt for other extensions.
+/// Returns the name of a file of returns without extension; nullopt for other extensions.
 std::optional<std::string> withoutCloudExtension(std::string name) {
   if (urban_nav_core::endsWith(name, ".gz")) name.resize(name.size() - 3);
   if (!urban_nav_core::endsWith(name, ".csv") && !urban_nav_core::endsWith(name, ".ply")) return std::nullopt;
@@ -61,7 +61,7 @@ std::vector<SceneFiles> scenesOfSource(const std::string& source) {
   const std::filesystem::path path(source);
   const auto name = withoutCloudExtension(path.filename().string());
   if (!name)
-    throw UserError(source, urban_nav_input::isRecording(source) ? "is a recording, not a scene" : "is no scene",
+    throw UserError(source, urban_nav_input::isRecording(source) ? "is a recording, not a scene" : "is not a scene",
                     kSceneRule);
   const bool has_suffix = urban_nav_core::endsWith(*name, "_points");
   return {besidePoints(path, has_suffix ? name->substr(0, name->size() - 7) : *name)};
@@ -84,7 +84,7 @@ cv::Mat readColourImage(const std::string& path) {
   return colour;
 }
 
-/// Middle of coordinates that lie far from zero, in whole metres.
+/// Returns the centre of coordinates far from zero, in whole metres; else 0.
 double offsetAlong(const std::vector<double>& values) {
   for (const double value : values)
     if (std::isfinite(value)) return std::abs(value) > kFarCoordinate ? std::round(value) : 0.0;

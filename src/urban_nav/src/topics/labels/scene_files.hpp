@@ -18,19 +18,19 @@ struct SceneFiles {
   std::string projection;  ///< path of projection.txt beside the image
 };
 
-/// Finds the scenes of folders and files, in the order of their names, which may stand in two folders. Throws UserError
-/// for a path that holds no scene, an image without projection.txt, and a scene that is given twice.
+/// Finds the scenes of folders and files, in the order of their names; scenes of different folders may have the same
+/// name. Throws UserError for a path without scenes, an image without projection.txt, and a duplicate scene.
 std::vector<SceneFiles> findScenes(const std::vector<std::string>& sources);
 
-/// Returns a name for each scene that no other scene has: its own, or its path where two have one name.
+/// Returns a unique name for each scene: its name, or its path if two scenes have the same name.
 std::vector<std::string> uniqueSceneNames(const std::vector<SceneFiles>& scenes);
 
 /// Reads the returns and the image of a scene; no labels. Coordinates beyond 1 km are moved near the origin. Throws
 /// UserError for a file of another format, DataError for an image that cannot be decoded.
 scene_labeler::Scene readScene(const SceneFiles& files);
 
-/// Reads the column `label`, or `scalar_label` as CloudCompare names it, of the returns. Throws UserError if there is
-/// neither, or for a value that is not whole.
+/// Reads the column `label`, or `scalar_label` of CloudCompare, of the returns. Throws UserError if there is neither,
+/// or for a non-integer value.
 std::vector<std::int64_t> readSceneLabels(const SceneFiles& files);
 
 }  // namespace urban_nav

@@ -17,7 +17,7 @@ using laser_mapper::ViewCalibration;
 
 namespace {
 
-/// How a term is called and scaled for people, in the order of CalibrationTerm.
+/// Name and scale of a term for output, in the order of CalibrationTerm.
 struct TermText {
   const char* name;
   const char* key;
@@ -42,27 +42,26 @@ std::string withSigma(const TermText& term, const CalibrationEstimate& estimate)
          urban_nav_core::formatNumber(term.scale * estimate.sigma, 2) + " " + term.unit;
 }
 
-/// Returns what became of a calibration. `nothing`: why nothing was found, where it rests on no place. `spread`: the
-/// figures by which it was judged.
+/// Returns the verdict on a calibration. `nothing`: reason if there are no places. `spread`: supporting figures.
 std::string verdictOf(std::size_t places, bool is_significant, bool improves, const std::string& nothing,
                       const std::string& spread) {
-  if (places == 0) return "nothing is found: " + nothing;
-  if (!is_significant) return "the stated calibration is kept: nothing differs from it beyond chance";
+  if (places == 0) return "not estimated: " + nothing;
+  if (!is_significant) return "the stated calibration is kept: no significant difference";
   return (improves ? "adopted: " : "the stated calibration is kept: ") + spread;
 }
 
 std::string verdictOf(const CalibrationResult& found) {
   return verdictOf(found.places, found.is_significant, found.improves, "no plane was measured twice",
-                   "the passes lie " + urban_nav_core::formatNumber(1e3 * found.stated_spread, 2) +
-                       " mm apart as stated and " + urban_nav_core::formatNumber(1e3 * found.calibrated_spread, 2) +
-                       " mm with the estimate, in " + std::to_string(found.held_out) + " places left out of it");
+                   "the distance of the passes is " + urban_nav_core::formatNumber(1e3 * found.stated_spread, 2) +
+                       " mm as stated and " + urban_nav_core::formatNumber(1e3 * found.calibrated_spread, 2) +
+                       " mm with the estimate, in " + std::to_string(found.held_out) + " held-out places");
 }
 
 std::string verdictOf(const ViewCalibration& found) {
   return verdictOf(found.places, found.is_significant, found.improves, "no point of the map is seen by several views",
                    "the views of a point differ by " + urban_nav_core::formatNumber(100.0 * found.stated_spread, 3) +
                        " % as stated and " + urban_nav_core::formatNumber(100.0 * found.calibrated_spread, 3) +
-                       " % with the estimate, in " + std::to_string(found.held_out) + " places left out of it");
+                       " % with the estimate, in " + std::to_string(found.held_out) + " held-out places");
 }
 
 std::string listOf(const std::vector<std::string>& sentences) {
@@ -90,7 +89,7 @@ void addDevice(const DeviceCalibration& device, PageTable& table) {
   }
 }
 
-/// Returns the directions that the lasers and the panoramas of a session do not tell.
+/// Returns the unobservable directions of the lasers and the panoramas of a session.
 std::vector<std::string> unconstrainedOf(const SessionCalibration& session) {
   std::vector<std::string> all = session.found.unconstrained;
   if (session.panorama)
@@ -98,7 +97,7 @@ std::vector<std::string> unconstrainedOf(const SessionCalibration& session) {
   return all;
 }
 
-/// Mean over the sessions that constrain the delay of a device, by their information.
+/// Mean delay of a device over the sessions that constrain it, weighted by information.
 class DelayMean {
  public:
   void add(const CalibrationEstimate& delay) {
@@ -145,7 +144,7 @@ std::vector<std::string> calibrationSentences(const LasersRun& run) {
       sentences.push_back("  panorama: " + (adopted.empty() ? "" : adopted + "; ") + verdictOf(*session.panorama));
     }
     const std::vector<std::string> unconstrained = unconstrainedOf(session);
-    if (!unconstrained.empty()) sentences.push_back("  the session does not say: " + listOf(unconstrained));
+    if (!unconstrained.empty()) sentences.push_back("  not observable in this session: " + listOf(unconstrained));
   }
   return sentences;
 }
@@ -168,7 +167,7 @@ std::vector<PageTable> calibrationTables(const LasersRun& run) {
                                 std::to_string(session.panorama->places) + " places in several views (" +
                                 verdictOf(*session.panorama) + ")"
                           : "") +
-        "." + (unconstrained.empty() ? "" : " The session does not say: " + listOf(unconstrained) + ".");
+        "." + (unconstrained.empty() ? "" : " Not observable in this session: " + listOf(unconstrained) + ".");
     tables.push_back(table);
   }
   return tables;

@@ -10,12 +10,12 @@
 
 namespace urban_nav {
 
-/// Return what --calibrate found, for the console, the report and summary.json; nothing without it.
+/// Return the results of --calibrate, for the console, the report and summary.json; empty without it.
 std::vector<std::string> calibrationSentences(const LasersRun& run);
 std::vector<PageTable> calibrationTables(const LasersRun& run);
 Json calibrationJson(const LasersRun& run);
 /// Returns the delay of each device, ms: the mean over the sessions that constrain it, weighted by their information;
-/// null where none does.
+/// null if none does.
 Json delaysJson(const LasersRun& run);
 
 }  // namespace urban_nav

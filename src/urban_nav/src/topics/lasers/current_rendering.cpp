@@ -21,7 +21,7 @@ using urban_nav_store::StoredTrajectory;
 
 namespace {
 
-/// Tables that neither rendering nor an export of points needs, and chunks, which are rendered anew.
+/// Tables not needed for rendering and export of points, and chunks, which are rendered again.
 constexpr std::array<const char*, 10> kLeftOut = {"chunk", "chunk_cells", "input",      "edge",  "evidence",
                                                   "edit",  "edge_number", "graph_file", "place", "keyframe_place"};
 

@@ -9,9 +9,9 @@
 
 namespace urban_nav {
 
-/// A store whose chunks lie along its poses: a store itself, or, where edits have moved poses since the chunks of a map
-/// were rendered, a copy in the folder for temporary files with that map rendered anew, which vanishes with this
-/// object. The store is only read, and must outlive this object.
+/// A store whose chunks agree with its poses: the store itself, or, if edits have moved poses since rendering, a
+/// temporary copy with the map rendered again, which is removed with this object. The store is only read, and must
+/// outlive this object.
 class CurrentRendering {
  public:
   CurrentRendering(urban_nav_store::Store& store, const std::vector<urban_nav_store::StoredTrajectory>& map);

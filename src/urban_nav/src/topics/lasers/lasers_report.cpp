@@ -26,19 +26,18 @@ std::string beamPercent(std::size_t part, std::size_t all) {
 PageTable beamsTable(const LasersRun& run) {
   const laser_mapper::BeamCounts beams = run.beams();
   const std::size_t used = beams.all - beams.mixed - beams.without_pose - beams.out_of_range - run.ghostBeams();
-  return {
-      "What became of the beams",
-      {"", "beams", "share"},
-      {{"with a valid range", std::to_string(beams.all), ""},
-       {"in the map", std::to_string(used), beamPercent(used, beams.all)},
-       {"left out: too near or too far", std::to_string(beams.out_of_range),
-        beamPercent(beams.out_of_range, beams.all)},
-       {"left out: on the edge between two surfaces", std::to_string(beams.mixed), beamPercent(beams.mixed, beams.all)},
-       {"left out: on what moved, as beams of other times passed through", std::to_string(run.ghostBeams()),
-        beamPercent(run.ghostBeams(), beams.all)},
-       {"left out: at a time without a pose", std::to_string(beams.without_pose),
-        beamPercent(beams.without_pose, beams.all)}},
-      ""};
+  return {"Use of the beams",
+          {"", "beams", "share"},
+          {{"with a valid range", std::to_string(beams.all), ""},
+           {"in the map", std::to_string(used), beamPercent(used, beams.all)},
+           {"left out: too near or too far", std::to_string(beams.out_of_range),
+            beamPercent(beams.out_of_range, beams.all)},
+           {"left out: between two surfaces", std::to_string(beams.mixed), beamPercent(beams.mixed, beams.all)},
+           {"left out: on moving objects, which beams of other times passed through", std::to_string(run.ghostBeams()),
+            beamPercent(run.ghostBeams(), beams.all)},
+           {"left out: at a time without a pose", std::to_string(beams.without_pose),
+            beamPercent(beams.without_pose, beams.all)}},
+          ""};
 }
 
 std::string toDegrees(double rad) { return urban_nav_core::formatNumber(kDegreesPerRad * rad, 2) + " deg"; }
@@ -66,7 +65,7 @@ PageTable qualityTable(const LasersRun& run) {
   table.rows.push_back({"places", std::to_string(walls.places), std::to_string(ground.places), ""});
   table.rows.push_back({"pairs of passes", std::to_string(walls.pairs), std::to_string(ground.pairs), ""});
   table.caption =
-      "Planes that several passes measured, at least 20 s apart, without ground truth: the angle between their normals "
+      "Planes measured by several passes at least 20 s apart, without ground truth: the angle between their normals "
       "and their displacement along the common normal. The paper (Table 4) states distances of centroids, which also "
       "differ along the wall. Every place is a row of quality.csv.";
   return table;
@@ -90,14 +89,14 @@ std::vector<std::string> lasersWarnings(const LasersRun& run) {
 Section lasersSection(const LasersRun& run) {
   Section section;
   section.id = "map";
-  section.title = "The map";
+  section.title = "Map";
   section.introduction =
-      "What the lasers measured, each beam from where the robot was at its time. Points, with normals "
-      "and uncertainties, are in map.ply.";
+      "Laser beams, each placed by the pose of the robot at its time. Points with normals and uncertainties are in "
+      "map.ply.";
   for (const LaserMapRun& map : run.maps)
     if (!map.viewer.empty())
       section.figures.push_back(
-          {"In three dimensions", map.viewer, "A click names a point, the next one the distance.", true});
+          {"In three dimensions", map.viewer, "Click a point for its data, a second one for the distance.", true});
   for (const LaserMapRun& map : run.maps)
     section.pictures.insert(section.pictures.end(), map.pictures.begin(), map.pictures.end());
   if (run.walls().pairs + run.ground().pairs > 0) section.tables.push_back(qualityTable(run));

@@ -10,10 +10,10 @@
 
 namespace urban_nav {
 
-/// Returns the section of the report: pictures, and what became of the beams.
+/// Returns the section of the report: pictures, and statistics of the beams.
 Section lasersSection(const LasersRun& run);
 std::vector<Tile> lasersTiles(const LasersRun& run);
-/// Returns what is wrong with the data, for the console and the report.
+/// Returns defects of the data, for the console and the report.
 std::vector<std::string> lasersWarnings(const LasersRun& run);
 /// Returns the object of summary.json.
 Json toJson(const LasersRun& run);

@@ -27,7 +27,7 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-constexpr double kShownMargin = 25.0;  // m around the path in the view from above, before it is cut to what it shows
+constexpr double kShownMargin = 25.0;  // m around the path in the plan view, before cropping
 constexpr int kLongestPicture = 2000, kPictureWidth = 1400, kPictureHeight = 800;  // px
 constexpr double kPathStep = 0.25;                                                 // m
 constexpr double kImageMemoryShare = 0.1;                                          // of memory_mb
@@ -46,7 +46,7 @@ PagePicture pagePicture(const MapPicture& drawn, const std::string& caption) {
   return {caption, urban_nav_registration::encodeJpeg(picture), picture.width, picture.height};
 }
 
-/// Histogram of the points' sigmas.
+/// Histogram of the standard deviations of the points.
 class SigmaHistogram {
  public:
   void add(float sigma) {
@@ -67,7 +67,7 @@ class SigmaHistogram {
   std::size_t all_ = 0;
 };
 
-/// Shows the surface of a map to its colouriser; returns the number of views.
+/// Passes the surface of a map to its colouriser; returns the number of views.
 std::size_t prepareColours(const LaserMap& map, laser_mapper::Colouriser& colouriser) {
   map.forEachTile(
       [&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) { colouriser.addSurface(points); });
@@ -75,7 +75,7 @@ std::size_t prepareColours(const LaserMap& map, laser_mapper::Colouriser& colour
   return colouriser.views();
 }
 
-/// Returns what a map without points lacks.
+/// Returns the reason why a map has no points.
 std::string whyEmpty(const LaserMapRun& run) {
   const laser_mapper::BeamCounts& beams = run.rendered.beams;
   return run.file + " cannot be made: no point is left of " + std::to_string(beams.all) + " beams (" +
@@ -83,7 +83,7 @@ std::string whyEmpty(const LaserMapRun& run) {
          " out of range), and no surface is seen by three keyframes of dense stereo";
 }
 
-/// `make_colouriser`: called when the map is rendered.
+/// Renders a map. `make_colouriser`: called after rendering.
 LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<laser_mapper::Colouriser>()>& make_colouriser,
                       const std::vector<laser_mapper::MappedSession>& mapped, std::size_t first_session,
                       const MapContext& context) {
@@ -143,8 +143,8 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<laser_m
   return run;
 }
 
-/// Calibrates the lasers of a session of this run if that is asked for. Previous sessions keep what their own runs have
-/// adopted. What stage calibration has found stands where no relaxation has changed the trajectory since.
+/// Calibrates the lasers of a session of this run if requested. Previous sessions keep their adopted calibration. The
+/// result of stage calibration is used unless a relaxation has changed the trajectory.
 void calibrateForMap(const laser_mapper::Parameters& parameters, std::size_t session, const MapContext& context,
                      const std::vector<SessionCalibration>& along_odometry, LasersRun& run) {
   if (!context.options.calibrate || context.isPrevious(session)) return;
@@ -154,7 +154,7 @@ void calibrateForMap(const laser_mapper::Parameters& parameters, std::size_t ses
   else run.calibrations.push_back(calibrateSession(parameters, session, context));
 }
 
-/// Calibrates the panoramas of sessions whose lasers have been calibrated, by the map that these have made.
+/// Calibrates the panoramas of sessions with calibrated lasers, by the map of these lasers.
 void calibrateViews(const std::vector<std::size_t>& sessions, const LaserMap& map,
                     const std::vector<laser_mapper::MappedSession>& mapped, MapContext& context, LasersRun& run) {
   for (SessionCalibration& calibration : run.calibrations) {
@@ -248,7 +248,7 @@ LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& cont
       mapped.push_back({ids[s], &session.T_map_base, &session.covariances});
     }
     if (mapped.empty()) continue;
-    if (context.joins)  // chunks of earlier runs may be off their places by up to max_shift
+    if (context.joins)  // chunks of earlier runs may be displaced by up to max_shift
       for (const laser_mapper::MappedSession& session : mapped) laser_mapper::forgetChunks(*context.store, session.id);
     LaserMap laser_map(parameters, *context.store, mapped);
     const double memory_mb = kImageMemoryShare * context.options.parameters.get(commandTable()).memory_mb;

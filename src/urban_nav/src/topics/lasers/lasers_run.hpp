@@ -13,16 +13,16 @@
 
 namespace urban_nav {
 
-/// The map of sessions that lie in one map.
+/// A map of one or several sessions.
 struct LaserMapRun {
   std::size_t map = 0;  ///< number of its first session
   std::string file;     ///< "map.ply", in the output folder
   std::size_t points = 0;
   std::size_t stereo = 0;    ///< points of dense stereo
   std::size_t coloured = 0;  ///< points with the colour of a panorama
-  std::size_t views = 0;     ///< images that it was coloured from
+  std::size_t views = 0;     ///< images used for its colours
   std::size_t passes = 0;
-  std::size_t ghost_beams = 0;  ///< left out: beams of other times passed through their ends
+  std::size_t ghost_beams = 0;  ///< removed since beams of other times passed through their ends
   double sigma_median = 0.0;    ///< m
   laser_mapper::RenderStatistics rendered;
   laser_mapper::QualityFigures walls, ground;  ///< agreement of the passes
@@ -31,7 +31,7 @@ struct LaserMapRun {
   std::string viewer;  ///< markup of the view in three dimensions
 };
 
-/// What stage lasers made.
+/// Result of stage lasers.
 struct LasersRun {
   std::vector<LaserMapRun> maps;
   std::vector<SessionCalibration> calibrations;
@@ -42,20 +42,19 @@ struct LasersRun {
   std::size_t stereo() const;
   std::size_t chunksRendered() const;
   std::size_t ghostBeams() const;
-  /// Returns the agreement of the passes on walls; on ground: over all maps.
+  /// Return the agreement of the passes on walls and on ground, over all maps.
   laser_mapper::QualityFigures walls() const;
   laser_mapper::QualityFigures ground() const;
   laser_mapper::BeamCounts beams() const;
 };
 
-/// Estimates the calibration of the lasers of a session of this run along its trajectory, whatever that is by now, and
-/// makes all stages use what is adopted of it. `session`: number over all sessions.
+/// Estimates the calibration of the lasers of a session of this run along its current trajectory, and applies the
+/// adopted terms for all stages. `session`: number over all sessions.
 SessionCalibration calibrateSession(const laser_mapper::Parameters& parameters, std::size_t session,
                                     const MapContext& context);
 
 /// Renders the maps of all sessions whose trajectories are written, and writes their files into the output folder.
-/// `along_odometry`: calibrations that stage calibration has found; used where no relaxation has changed the trajectory
-/// since.
+/// `along_odometry`: calibrations of stage calibration, used if no relaxation has changed the trajectory since.
 LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& context,
                     const std::vector<SessionCalibration>& along_odometry);
 

@@ -32,7 +32,7 @@ struct SessionViews {
   std::vector<urban_nav_registration::PanoramaKey> images;
 };
 
-/// Adds the views of a session, as they are stated but for `correction`.
+/// Adds the views of a session with their stated extrinsics and `correction`.
 void addViews(urban_nav_store::Store& store, const MappedSession& session, const PanoramaCorrection& correction,
               SessionViews& made) {
   std::map<std::int64_t, StoredPanoramaCamera> cameras;

@@ -12,15 +12,14 @@
 
 namespace urban_nav {
 
-/// Returns the colouriser of a map from the panoramas that the store holds of its sessions, some 0.7 m or 15 deg apart;
-/// null if there are none at times that the trajectories cover. The store must outlive it. `memory_mb`: for decoded
-/// images.
+/// Returns the colouriser of a map from stored panoramas of its sessions, about 0.7 m or 15 deg apart; null if there
+/// are none within the time of the trajectories. The store must outlive it. `memory_mb`: for decoded images.
 std::unique_ptr<laser_mapper::Colouriser> makeColouriser(urban_nav_store::Store& store,
                                                          const std::vector<laser_mapper::MappedSession>& sessions,
                                                          double voxel, double memory_mb);
 
-/// Calibrates the panoramic head of a session by the colours of its map; nullopt if there are no panoramas at times
-/// that the trajectory covers. `odometry`: see laser_mapper::ViewCalibrator.
+/// Calibrates the panoramic head of a session by the colours of its map; nullopt if there are no panoramas within the
+/// time of the trajectory. `odometry`: see laser_mapper::ViewCalibrator.
 std::optional<laser_mapper::ViewCalibration> calibratePanoramas(urban_nav_store::Store& store,
                                                                 const laser_mapper::MappedSession& session,
                                                                 const urban_nav_core::OdometryChain& odometry,

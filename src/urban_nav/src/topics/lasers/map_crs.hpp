@@ -12,11 +12,11 @@
 
 namespace urban_nav {
 
-/// The coordinate system that a map is written in, and where the map lies in it.
+/// Coordinate system of an exported map, and the pose of the map in it.
 class MapCrs {
  public:
-  /// `crs`: "auto" (the UTM zone of the fixes) or "EPSG:N". Throws UserError for other words, DataError with the reason
-  /// if the GPS fixes of the sessions do not place the map.
+  /// `crs`: "auto" (the UTM zone of the fixes) or "EPSG:N". Throws UserError for other text, DataError with the reason
+  /// if the GPS fixes of the sessions do not georeference the map.
   MapCrs(const std::string& crs, urban_nav_store::Store& store,
          const std::vector<urban_nav_store::StoredTrajectory>& map);
 
@@ -37,7 +37,7 @@ class MapCrs {
   std::unique_ptr<laser_mapper::MapProjection> projection_;
 };
 
-/// Returns the code of "EPSG:N"; 0 for "auto". Throws UserError for other words.
+/// Returns the code of "EPSG:N"; 0 for "auto". Throws UserError for other text.
 int parseCrs(const std::string& crs);
 
 }  // namespace urban_nav

@@ -34,17 +34,17 @@ using urban_nav_store::StoredTrajectory;
 
 namespace {
 
-constexpr double kOrthoMargin = 30.0;  // m around the path, before it is cut to what it shows
+constexpr double kOrthoMargin = 30.0;  // m around the path, before cropping
 constexpr int kLongestOrtho = 16000;   // px
 constexpr StampNs kLongestPoseGap = 500'000'000;
 constexpr const char* kLocalSystem =
     R"(LOCAL_CS["map of urban_nav",LOCAL_DATUM["first pose",0],UNIT["metre",1],AXIS["x",OTHER],AXIS["y",OTHER],AXIS["z",UP]])";
 
-/// Sessions of a map that have points.
+/// Sessions of a map with points.
 struct MappedSessions {
   std::vector<std::unique_ptr<Trajectory>> trajectories;
   std::vector<laser_mapper::MappedSession> sessions;
-  std::vector<std::map<std::uint8_t, Pose>> sensors;  ///< poses on the robot by their ids
+  std::vector<std::map<std::uint8_t, Pose>> sensors;  ///< extrinsics by their ids
   std::vector<Vector3d> path;
   std::optional<laser_mapper::Parameters> parameters;
 };
@@ -63,7 +63,8 @@ MappedSessions mappedSessions(Store& store, const std::vector<StoredTrajectory>&
   return result;
 }
 
-/// Returns where the sensor of a point was; nullopt for dense stereo, whose lines of sight are no proof of free space.
+/// Returns the position of the sensor of a point; nullopt for dense stereo, whose lines of sight do not imply free
+/// space.
 std::optional<Vector3d> beamOrigin(const MappedSessions& mapped, const MapPoint& point) {
   for (std::size_t s = 0; s < mapped.sessions.size(); ++s) {
     const auto place = mapped.sensors[s].find(point.laser);
@@ -80,7 +81,7 @@ std::vector<laser_mapper::SensorName> mappedSensors(Store& store, const MappedSe
   return laser_mapper::storedSensors(store, ids);
 }
 
-/// The formats with a record for each point.
+/// Writer of the formats with a record for each point.
 class PointFiles {
  public:
   /// `crs`: of the LAS file; null: the frame map. Must outlive it. `more`: attributes of all points; nullopt: none.
@@ -198,7 +199,7 @@ void forEachColouredTile(Store& store, const LaserMap& map, const MappedSessions
   });
 }
 
-/// Writes the formats that show points in their colours.
+/// Writes the formats with coloured points.
 std::size_t writeColoured(const MapFilePaths& paths, Store& store, const LaserMap& map, const MappedSessions& mapped,
                           const MapCrs* crs, double memory_mb, const AttributeSource& attributes) {
   const laser_mapper::MapView view = laser_mapper::viewFromAbove(mapped.path, kOrthoMargin, kLongestOrtho);

@@ -14,22 +14,23 @@
 
 namespace urban_nav {
 
-/// Files of a map of points, by their formats; those without a path are not written.
+/// Files of a point map by format; an empty path is not written.
 struct MapFilePaths {
   std::string ply, pcd, las;
-  std::string grid;       ///< YAML of map_server; the PGM is written beside it
-  std::string ortho;      ///< PNG; its world file is written beside it
+  std::string grid;       ///< YAML of map_server; the PGM is written next to it
+  std::string ortho;      ///< PNG; its world file is written next to it
   std::string mesh = {};  ///< PLY with vertices and faces
-  std::string crs = {};   ///< coordinate system of the LAS file, as MapCrs takes it; empty: the frame map
+  std::string crs = {};   ///< coordinate system of the LAS file, for MapCrs; empty: the frame map
 
   bool any() const { return !(ply + pcd + las + grid + ortho + mesh).empty(); }
 };
 
-/// Returns what another stage adds to the points of a map; nullopt: nothing. `first`: the first session of the map.
+/// Returns the attributes that another stage adds to the points of a map; nullopt: none. `first`: the first session of
+/// the map.
 using AttributeSource = std::function<std::optional<PointAttributes>(
     urban_nav_store::Store& store, const urban_nav_store::SessionId& first, const laser_mapper::LaserMap& map)>;
 
-/// What exportMap() wrote.
+/// Result of exportMap().
 struct ExportedMap {
   std::size_t points = 0;
   std::vector<std::string> files;
@@ -41,14 +42,13 @@ struct ExportedMap {
 /// Returns whether a store holds a map of laser points of one of these sessions.
 bool holdsMap(urban_nav_store::Store& store, const std::vector<urban_nav_store::StoredTrajectory>& map);
 
-/// Writes the map of laser points of sessions that lie in one map, as the store holds it; the PLY file has the bytes
-/// that `map` wrote. `memory_mb`: for decoded images. `attributes`: of further stages. Throws DataError if the store
-/// holds no such map.
+/// Writes the stored map of laser points of sessions in one map; the PLY file is identical to that of `map`.
+/// `memory_mb`: for decoded images. `attributes`: of further stages. Throws DataError if the store has no such map.
 ExportedMap exportMap(urban_nav_store::Store& store, const std::vector<urban_nav_store::StoredTrajectory>& map,
                       const MapFilePaths& paths, double memory_mb, const AttributeSource& attributes = {});
 
-/// Calls `take` for the tiles of the map of laser points of sessions that lie in one map, in their order, with the
-/// colours that map.ply has; not at all if the store holds no such map. `memory_mb`: for decoded images.
+/// Calls `take` for the tiles of the map of laser points of sessions in one map, in their order, with the colours of
+/// map.ply; not at all if the store has no such map. `memory_mb`: for decoded images.
 void forEachMapTile(urban_nav_store::Store& store, const std::vector<urban_nav_store::StoredTrajectory>& map,
                     double memory_mb, const std::function<void(const std::vector<laser_mapper::MapPoint>&)>& take);
 

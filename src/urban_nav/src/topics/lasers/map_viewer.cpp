@@ -19,7 +19,7 @@ constexpr double kSteps16 = 65535.0;
 constexpr float kSigmaByte = 0.5e-3F;         // m
 constexpr float kDisplacementByte = 0.5e-3F;  // m
 
-/// Ranges of the values that the page holds as 16-bit integers.
+/// Ranges of the values stored as 16-bit integers in the page.
 struct ViewerBox {
   Vector3d low = Vector3d::Constant(1e300), high = Vector3d::Constant(-1e300);
   urban_nav_core::StampNs first = 0, last = 0;
@@ -44,8 +44,8 @@ void append16(std::vector<unsigned char>& bytes, double share) {
   bytes.push_back(static_cast<unsigned char>(value >> 8U));
 }
 
-/// For each point x, y, z and time in 16 bits, then red, green, blue, reflectance, laser, pass, sigma and displacement
-/// between passes (255: unknown) in bytes.
+/// Packs each point: x, y, z and time in 16 bits, then red, green, blue, reflectance, laser, pass, sigma and
+/// displacement between passes (255: unknown) in bytes.
 std::vector<unsigned char> packPoints(const std::vector<MapPoint>& points, const ViewerBox& box) {
   std::vector<unsigned char> bytes;
   bytes.reserve(16 * points.size());
@@ -101,7 +101,7 @@ std::string MapViewer::render() const {
       R"html(<option value="sigma">sigma</option><option value="quality">agreement of passes</option></select> <output>drag: turn; shift and drag: move; wheel: zoom</output></p>)html"
       R"html(<canvas tabindex="0" aria-label="Map" style="width:100%;height:min(70vh,40rem);touch-action:none;background:#fafafa"></canvas>)html";
   html += "<script type=\"application/octet-stream\">" + base64(packPoints(shown, box)) + "</script></div>\n";
-  // Each view brings the scripts, and starts the last view that the page has so far.
+  // Each view includes the scripts, which initialise the last view on the page so far.
   return html + "<script>" + webFiles({"camera.js", "points.js", "report_map.js"}) +
          "urbanNav.showReportMap([...document.querySelectorAll(\".map-view\")].pop());</script>";
 }

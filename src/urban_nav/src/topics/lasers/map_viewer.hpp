@@ -12,11 +12,10 @@
 
 namespace urban_nav {
 
-/// The map as a view in three dimensions inside the report: points of a map, evenly thinned to at most 500 000, and the
-/// path, drawn by WebGL with the scripts of `view`. Colours by picture, reflectance, height, pass, sensor, sigma or
-/// agreement of passes; a click names a point, the next one its distance from the first. Other stages add ways of
-/// colouring (renderMapLayer()). Without WebGL nothing is shown. The result depends on the order of the points. Not
-/// thread-safe.
+/// The 3D view of a map in the report: its points, evenly thinned to at most 500 000, and the path, drawn by WebGL with
+/// the scripts of `view`. Colours by image, reflectance, height, pass, sensor, sigma or agreement of passes; a click
+/// shows the data of a point, the next one its distance from the first. Other stages add colourings (renderMapLayer()).
+/// Empty without WebGL. The result depends on the order of the points. Not thread-safe.
 class MapViewer {
  public:
   /// `number`: makes the element's id unique on the page.
@@ -24,7 +23,7 @@ class MapViewer {
 
   void add(const std::vector<laser_mapper::MapPoint>& points);
   void addPath(const std::vector<urban_nav_core::Vector3d>& path) { paths_.push_back(path); }
-  /// Returns the markup with data and script, which needs nothing outside it; empty without points.
+  /// Returns the self-contained markup with data and script; empty without points.
   std::string render() const;
   /// Returns the number of points that are shown.
   std::size_t points() const { return points_.items().size(); }

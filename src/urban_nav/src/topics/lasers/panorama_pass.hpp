@@ -7,8 +7,8 @@
 
 namespace urban_nav {
 
-/// Stores the panoramas of a session and the calibration of their cameras, so that the map can be coloured, now and
-/// again, without the recording. Cameras without calibration or place on the robot are left out.
+/// Stores the panoramas of a session and the calibration of their cameras, so that the map can be coloured without the
+/// recording. Omits cameras without calibration or extrinsics.
 class PanoramaPass final : public SessionPass {
  public:
   PanoramaPass(MapContext& context, const Stage::SessionStart& start);

@@ -11,9 +11,8 @@
 
 namespace urban_nav {
 
-/// Stores what the map needs of the sensors of a session, so that it can be made again without the recording:
-/// panoramas, and the sweeps of 3D LiDARs about every 0.25 m or 6 deg of travel. From a robot at rest, a sweep every
-/// ten seconds.
+/// Stores the sensor data of a session from which the map can be rendered without the recording: panoramas, and sweeps
+/// of 3D LiDARs about every 0.25 m or 6 deg of travel, or every ten seconds at rest.
 class SensorPass final : public SessionPass {
  public:
   SensorPass(MapContext& context, const Stage::SessionStart& start);
@@ -35,7 +34,7 @@ class SensorPass final : public SessionPass {
     std::vector<StoredSweep> last;
     void archive(urban_nav_core::Archive& archive) { archive(last); }
   };
-  /// Returns the last sweep of a LiDAR, which it adds if it is missing.
+  /// Returns the last sweep of a LiDAR, inserted if missing.
   StoredSweep& lastPassFor(const urban_nav_input::SweepInput& input);
 
   urban_nav_store::Store& store_;

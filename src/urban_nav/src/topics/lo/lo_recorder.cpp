@@ -86,7 +86,7 @@ void LoRecorder::sampleSurface() {
   for (const laser_odometry::MapPoint& point : odometry_->localMap())
     if ((point.p_odom.cast<double>() - here).norm() < kSampleReach) run_.surface.push_back(point.p_odom);
   if (run_.surface.size() <= kSurfacePoints) return;
-  std::size_t kept = 0;  // every other one, so that early and late parts stay equally dense
+  std::size_t kept = 0;  // keeps every second point, so that early and late parts are equally dense
   for (std::size_t i = 0; i < run_.surface.size(); i += 2) run_.surface[kept++] = run_.surface[i];
   run_.surface.resize(kept);
 }

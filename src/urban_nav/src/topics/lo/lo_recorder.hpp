@@ -10,20 +10,20 @@
 
 namespace urban_nav {
 
-/// Feeds LaserOdometry with the sweeps of the first LiDAR that it gets and records what files and report need of its
-/// output. Not thread-safe.
+/// Feeds LaserOdometry with the sweeps of the first LiDAR and records its output for files and report. Not
+/// thread-safe.
 class LoRecorder {
  public:
   /// `run`: filled while sweeps are processed; must outlive the recorder.
   LoRecorder(const laser_odometry::Parameters& parameters, const urban_nav_input::SourceInfo& info, LoRun& run);
-  /// Continues bit-exactly where another recorder was when `state` was taken. Throws UserError if the parameters
+  /// Continues bit-exactly from the `state` of another recorder. Throws UserError if the parameters
   /// differ, DataError if the state is damaged.
   LoRecorder(const laser_odometry::Parameters& parameters, const urban_nav_input::SourceInfo& info, LoRun& run,
              std::string_view state);
 
   void process(const urban_nav_input::SweepInput& input);
   void finish(const PassEnd& end);
-  /// Returns the state of run and odometry. Not after finish().
+  /// Returns the state of run and odometry. Requires that finish() has not been called.
   std::string state() const;
 
  private:

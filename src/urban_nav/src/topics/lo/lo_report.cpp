@@ -16,7 +16,7 @@ using urban_nav_core::Health;
 
 namespace {
 
-constexpr std::size_t kPointsDrawn = 12'000;  // more make the page slow to open
+constexpr std::size_t kPointsDrawn = 12'000;  // more would slow down the page
 
 double sinceStart(const LoRun& run, urban_nav_core::StampNs stamp) {
   return urban_nav_core::secondsBetween(run.frames.front().stamp, stamp);
@@ -30,7 +30,7 @@ Series makeSeries(const std::string& name, const std::string& colour, Series::Ki
   return series;
 }
 
-/// Times in which sweeps were not OK.
+/// Returns the time intervals in which sweeps were not OK.
 std::vector<Span> findTroubles(const LoRun& run) {
   std::vector<Span> spans;
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
@@ -59,7 +59,7 @@ Figure mapFigure(const LoRun& run) {
   Series path = makeSeries("path", "a");
   for (const SmoothedFrame& pose : run.settled)
     path.points.push_back({pose.T_odom_base.pose.t().x(), pose.T_odom_base.pose.t().y()});
-  // A short line along each free direction: where the surroundings do not hold the position.
+  // A short line along each free direction.
   Series free = makeSeries("free direction", "bad");
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
@@ -74,7 +74,7 @@ Figure mapFigure(const LoRun& run) {
   }
   plot.series = {surface, path, free};
   return {"Map from above", renderSvg(plot),
-          "Planes of the local map along the path. A red line: along it the surroundings do not constrain the motion.",
+          "Planes of the local map along the path. Red lines: directions that the surroundings do not constrain.",
           true};
 }
 
@@ -125,11 +125,11 @@ std::string percentText(std::int64_t count, std::int64_t all) {
 
 std::vector<Section> loSections(const LoRun& run) {
   if (run.frames.empty()) return {};
-  Section path{"laser-path", "The path by laser", "Poses of base_link, relative to the first.", {}, {}, {}};
+  Section path{"laser-path", "Path by laser odometry", "Poses of base_link, relative to the first.", {}, {}, {}};
   path.figures.push_back(mapFigure(run));
   path.figures.push_back(sigmaFigure(run, 0, "Uncertainty of the position", "one standard deviation (m)", 1.0));
   path.figures.push_back(
-      sigmaFigure(run, 3, "Uncertainty of the direction", "one standard deviation (deg)", 180.0 / M_PI));
+      sigmaFigure(run, 3, "Uncertainty of the orientation", "one standard deviation (deg)", 180.0 / M_PI));
   Section work{"laser-work", "Registration of the sweeps", "", {}, {}, {}};
   work.figures.push_back(
       sweepFigure(run, "Residuals", "mm",
@@ -147,7 +147,7 @@ std::vector<Section> loSections(const LoRun& run) {
       run, "Free directions", "directions",
       {overSweeps(run, "", "bad", [](const LoFigures& of) { return static_cast<double>(of.free_directions.size()); })},
       "Directions of the motion that the surroundings do not constrain; six where a sweep is LOST."));
-  work.figures.push_back(sweepFigure(run, "Time of a sweep", "ms",
+  work.figures.push_back(sweepFigure(run, "Time per sweep", "ms",
                                      {overSweeps(run, "", "a", [](const LoFigures& of) { return of.process_ms; })},
                                      "Processing time on one core."));
   return {path, work};
@@ -161,16 +161,16 @@ std::vector<Verdict> loVerdicts(const LoSummary& summary) {
     reasons += (reasons.empty() ? " Reasons: " : ", ") + reason + " (" + std::to_string(count) + ")";
   if (!reasons.empty()) reasons += ".";
   if (lost > 0)
-    return {{Grade::Bad, "Some sweeps could not be registered.",
-             percentText(lost, summary.sweeps) + " of the sweeps rest on prediction alone; their covariance grows." +
-                 reasons}};
+    return {
+        {Grade::Bad, "Some sweeps could not be registered.",
+         percentText(lost, summary.sweeps) + " of the sweeps are predicted only; their covariance grows." + reasons}};
   if (summary.degenerate > 0)
-    return {{Grade::Fair, "The surroundings left directions free.",
+    return {{Grade::Fair, "The surroundings did not constrain all directions.",
              percentText(summary.degenerate, summary.sweeps) +
                  " of the sweeps do not constrain every direction of the motion." + reasons}};
   const std::int64_t degraded = summary.status_counts.at("DEGRADED");
   if (degraded > 0)
-    return {{Grade::Fair, "Registration held, with fewer returns than wanted at times.",
+    return {{Grade::Fair, "Registration held, with few returns at times.",
              percentText(degraded, summary.sweeps) + " of the sweeps are DEGRADED." + reasons}};
   return {{Grade::Good, "All sweeps were registered.",
            std::to_string(summary.sweeps) + " sweeps with " + formatNumber(summary.points_mean, 4) +

@@ -12,7 +12,7 @@ namespace urban_nav {
 /// Returns the sections on one session: map from above with the path, uncertainty, free directions, residuals, time.
 std::vector<Section> loSections(const LoRun& run);
 
-/// Returns the verdicts in plain words.
+/// Returns the verdicts on laser odometry.
 std::vector<Verdict> loVerdicts(const LoSummary& summary);
 
 }  // namespace urban_nav

@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kLoRunName = "laser odometry of a session";
 constexpr std::uint32_t kLoRunVersion = 2;
 
-/// A sweep as states hold it.
+/// A sweep in a stored state.
 struct StoredSweep {
   OdometryFrame frame;
   LoFigures figures;
@@ -27,7 +27,7 @@ void archive(Archive& archive, StoredSweep& row) {
   archive(row.figures.free_directions, row.figures.process_ms);
 }
 
-/// A pose as states hold it.
+/// A pose in a stored state.
 struct StoredPose {
   SmoothedFrame frame;
 };

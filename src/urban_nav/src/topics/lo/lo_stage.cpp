@@ -34,7 +34,7 @@ void checkUsable(const LoRun& run) {
 
 class LoPass final : public SessionPass {
  public:
-  /// `is_alone`: the laser is the only odometry, so that the store takes it.
+  /// `is_alone`: the laser is the only odometry, which is then stored.
   LoPass(MapContext& context, const Stage::SessionStart& start, LoRun& run, bool is_alone)
       : console_(context.console), run_(run), recorder_(makeRecorder(context, start)) {
     if (is_alone) writer_.emplace(*context.store, context.sessions[start.session].id, kLoStage, kLoStream);
@@ -150,7 +150,7 @@ class LoStage final : public Stage {
   }
 
  private:
-  /// Makes `run` the odometry of a session.
+  /// Sets `run` as the odometry of a session.
   LoRun& restart(MapContext& context, std::size_t session, LoRun run) {
     runs_.resize(context.sessions.size());
     runs_[session] = std::make_shared<LoRun>(std::move(run));
@@ -159,7 +159,7 @@ class LoStage final : public Stage {
     else of.odometry = runs_[session];
     return *runs_[session];
   }
-  /// Returns those of the sessions of this run that have laser odometry.
+  /// Returns the laser odometry of the sessions of this run that have one.
   std::vector<const LoRun*> runs() const {
     std::vector<const LoRun*> all;
     for (const std::shared_ptr<LoRun>& run : runs_)

@@ -15,7 +15,7 @@ std::string reasonName(const OdometryFrame& row) {
   return laser_odometry::toString(static_cast<laser_odometry::Reason>(row.status.reason));
 }
 
-/// Appends how many sweeps had each reason, in the words of the first one.
+/// Appends the number of sweeps by reason, with the sentence of the first one.
 void addReasons(const LoRun& run, std::vector<std::string>& warnings) {
   struct Problem {
     std::int64_t count = 0;

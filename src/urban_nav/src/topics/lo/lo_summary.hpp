@@ -10,7 +10,7 @@
 
 namespace urban_nav {
 
-/// Figures of laser odometry that summary.json and the report show.
+/// Figures of laser odometry for summary.json and the report.
 struct LoSummary {
   std::int64_t sweeps = 0;
   std::int64_t dropped = 0;     ///< because of their stamps
@@ -22,7 +22,7 @@ struct LoSummary {
   bool deskewed = false;                              ///< the motion within sweeps was compensated, by this stage
   std::map<std::string, std::int64_t> status_counts;  ///< OK, DEGRADED, LOST, RECOVERED: all four
   std::map<std::string, std::int64_t> reason_counts;  ///< of sweeps that have one
-  std::vector<std::string> reason_sentences;          ///< the same with their inputs, in words
+  std::vector<std::string> reason_sentences;          ///< reasons with their inputs, for the user
   std::vector<std::string> warnings;  ///< faults of the data and `reason_sentences`; each with its input
 };
 

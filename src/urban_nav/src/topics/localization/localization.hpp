@@ -7,8 +7,8 @@
 
 namespace urban_nav {
 
-/// Returns the stage localization, enabled by --localise: finds each session in the map of a store that is only read.
-/// Sets SessionTrajectory::localized.
+/// Returns the stage localization, enabled by --localise: localises each session in the map of a store, which is only
+/// read. Sets SessionTrajectory::localized.
 std::unique_ptr<Stage> makeLocalizationStage();
 
 }  // namespace urban_nav

@@ -56,7 +56,7 @@ class CloudLooks {
   }
 
  private:
-  /// Called only when a cloud is needed: keyframes may suffice all along.
+  /// Reads the map on demand, since keyframes may suffice.
   void readMap() {
     Progress progress(console_, "clouds of the map", "places", static_cast<std::int64_t>(search_->places()));
     while (search_->readNext()) progress.update(static_cast<std::int64_t>(search_->read()));
@@ -117,7 +117,7 @@ LocalizationRun runLocalization(const urban_nav_localization::Parameters& parame
     if (made.frames[i].state == LocalizationState::Localized)
       T_map_odom = made.frames[i].T_map_base->pose * run.settled[i].T_odom_base.pose.inverse();
   if (!T_map_odom) {
-    made.warnings.push_back("the session was never found in the map: trajectory.tum is that of odometry");
+    made.warnings.push_back("the session was not localised in the map: trajectory.tum follows odometry");
     return made;
   }
   for (std::size_t i = 0; i < made.frames.size(); ++i) {
@@ -130,7 +130,7 @@ LocalizationRun runLocalization(const urban_nav_localization::Parameters& parame
 
 namespace {
 
-/// Returns the word of localisation.csv for a state.
+/// Returns the text of a state in localisation.csv.
 const char* csvWord(LocalizationState state) {
   switch (state) {
     case LocalizationState::Uncertain: return "UNSURE";

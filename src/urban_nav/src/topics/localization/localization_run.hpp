@@ -16,20 +16,20 @@ namespace urban_nav {
 /// Localization of a session in a map that is only read.
 struct LocalizationRun {
   std::vector<urban_nav_localization::LocalizationEstimate>
-      frames;  ///< one per smoothed frame, from what was observed by then
-  /// All frames, from what is known at the end; empty if the session was never localized.
+      frames;  ///< one per smoothed frame, from observations up to it
+  /// All frames, from all observations; empty if the session was never localized.
   urban_nav_core::Trajectory T_map_base;
-  std::size_t looks = 0, sightings = 0;              ///< keyframes that were matched, and transforms from them
-  std::size_t cloud_looks = 0, cloud_sightings = 0;  ///< local clouds that were matched, and transforms from them
+  std::size_t looks = 0, sightings = 0;              ///< keyframes compared, and transforms found
+  std::size_t cloud_looks = 0, cloud_sightings = 0;  ///< local clouds compared, and transforms found
   double first_known_s = -1.0;                       ///< from the first frame to the first known one; negative: never
   double known_share = 0.0;                          ///< of the frames
   double ms_median = 0.0;                            ///< per keyframe
   std::vector<std::string> warnings;
 };
 
-/// Registers the keyframes that `own` holds of the run to those of the map of `frozen`'s first session: those near its
-/// estimated pose if there is one, else all. After some metres without a match, local clouds are registered instead, if
-/// both stores have scans. Throws UserError if the map has no keyframes, or those of another camera.
+/// Registers the keyframes of the run in `own` to those of the map of the first session of `frozen`: near the estimated
+/// pose if there is one, else all. After some metres without a match, registers local clouds instead, if both stores
+/// have scans. Throws UserError if the map has no keyframes, or those of another camera.
 LocalizationRun runLocalization(const urban_nav_localization::Parameters& parameters, urban_nav_store::Store& frozen,
                                 urban_nav_store::Store& own, const urban_nav_store::SessionId& id,
                                 const SessionOdometry& run, Console& console);

@@ -17,7 +17,7 @@ namespace {
 std::string describeRun(const LocalizationRun& run) {
   return "localised: KNOWN in " + urban_nav_core::formatNumber(100.0 * run.known_share, 3) + " % of the frames" +
          (run.first_known_s < 0.0 ? "" : ", first after " + urban_nav_core::formatNumber(run.first_known_s, 3) + " s") +
-         "; " + std::to_string(run.sightings) + " sightings in " + std::to_string(run.looks) + " looks" +
+         "; " + std::to_string(run.sightings) + " matches in " + std::to_string(run.looks) + " looks" +
          (run.cloud_looks == 0
               ? ""
               : ", " + std::to_string(run.cloud_sightings) + " in " + std::to_string(run.cloud_looks) + " at clouds");
@@ -35,9 +35,10 @@ class LocalizationStage final : public Stage {
   Selection select(const MapOptions& options) const override {
     if (options.localise.empty()) return {false, "no --localise", {}};
     if (!options.store.empty())
-      throw urban_nav_core::UserError("--localise", "the map is only read, and --store continues one", "one of them");
+      throw urban_nav_core::UserError("--localise", "--localise only reads the map, --store continues one",
+                                      "one of them");
     urban_nav_store::openForReading(options.localise, Access::Frozen)
-        .close();  // reports an unusable file before the work
+        .close();  // reports an unusable file before the run
     return {true, "", {"each session is localised in the map of " + options.localise + ", which is only read"}};
   }
 

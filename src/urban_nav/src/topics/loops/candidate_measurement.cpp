@@ -107,7 +107,7 @@ struct Worker {
   loop_metric::LoopMetric stage;
 };
 
-/// Pool of workers: as many as threads have needed at once.
+/// Pool of workers: as many as were used concurrently.
 class Workers {
  public:
   explicit Workers(const CandidateMeasurer& measurer) : measurer_(measurer) {}
@@ -136,7 +136,7 @@ class Workers {
 MetricClosure measureCandidate(Worker& worker, const MetricClosure& candidate) {
   try {
     return worker.stage.measure({candidate.a, candidate.b, candidate.probability}, worker.place_data).metric;
-  } catch (const urban_nav_core::DataError& error) {  // what the store holds of this place is damaged
+  } catch (const urban_nav_core::DataError& error) {  // damaged data of this place
     MetricClosure closure;
     closure.a = candidate.a;
     closure.b = candidate.b;

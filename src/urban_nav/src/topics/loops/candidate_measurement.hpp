@@ -37,9 +37,9 @@ class SeveralStores {
 /// Stores and settings for measuring candidates for closures.
 struct CandidateMeasurer {
   std::vector<std::string> stores;                  ///< paths
-  loop_metric::StoredPlaceData::Sessions sessions;  ///< of all stores, by the names that candidates use
+  loop_metric::StoredPlaceData::Sessions sessions;  ///< of all stores, by their names in candidates
   loop_metric::Parameters parameters;
-  urban_nav_registration::MountedCamera camera;  ///< to which views of all sessions are converted
+  urban_nav_registration::MountedCamera camera;  ///< camera to which the views of all sessions are converted
 };
 
 struct MeasuredCandidates {
@@ -47,8 +47,8 @@ struct MeasuredCandidates {
   std::vector<double> ms;                               ///< time of each
 };
 
-/// Measures the transforms of candidates, each alone: no closure depends on another one. `progress`: called with the
-/// number of candidates done. Runs on several threads; the closures do not depend on their number.
+/// Measures the transform of each candidate independently. `progress`: called with the number of candidates done. Runs
+/// on several threads; the closures do not depend on their number.
 MeasuredCandidates measureCandidates(const CandidateMeasurer& measurer,
                                      const std::vector<urban_nav_core::MetricClosure>& candidates,
                                      const std::function<void(std::size_t)>& progress);

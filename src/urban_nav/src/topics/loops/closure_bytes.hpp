@@ -10,9 +10,9 @@
 
 namespace urban_nav {
 
-/// Returns closures as bytes, to the last bit, evidence included.
+/// Serialises closures bit-exactly, including evidence.
 std::string packClosures(const std::vector<urban_nav_core::MetricClosure>& closures);
-/// Returns the closures that packClosures() wrote; nullopt for any other bytes.
+/// Inverse of packClosures(); nullopt for other bytes.
 std::optional<std::vector<urban_nav_core::MetricClosure>> unpackClosures(std::string_view bytes);
 
 }  // namespace urban_nav

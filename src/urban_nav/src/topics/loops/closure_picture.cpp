@@ -30,7 +30,7 @@ std::optional<Evidence::Try> findShown(const urban_nav_core::MetricClosure& clos
     if (!isShown(tried)) continue;
     if (shown == nullptr) shown = &tried;
     if (tried.verdict == ClosureVerdict::Accepted || tried.verdict == ClosureVerdict::Degenerate)
-      shown = &tried;  // a later try is made only without
+      shown = &tried;  // later attempts are made only without success
   }
   if (shown == nullptr) return std::nullopt;
   return *shown;
@@ -74,7 +74,7 @@ std::optional<PagePicture> toPicture(const Evidence::Try& tried, const loop_metr
     picture.height = drawn.height;
     if (picture.jpeg.empty()) return std::nullopt;
     return picture;
-  } catch (const urban_nav_core::Error&) {  // what the store holds is damaged
+  } catch (const urban_nav_core::Error&) {  // damaged data in the store
     return std::nullopt;
   }
 }

@@ -10,15 +10,15 @@
 
 namespace urban_nav {
 
-/// Is there a try of this closure that can be shown?
+/// Returns whether the closure has a registration attempt that can be drawn.
 bool hasPicture(const urban_nav_core::MetricClosure& closure);
 
-/// The try that decided, or the first where none did, from the evidence of the closure: two views with their matches,
-/// or two clouds before and after their alignment. `way`: loop_metric's cloud_half_length. Empty where nothing was
-/// tried, or what is known of it is damaged.
+/// Draws the decisive registration attempt of a closure, or the first one without, from its evidence: two views with
+/// their matches, or two clouds before and after alignment. `way`: registration.cloud_half_length, m. nullopt without
+/// an attempt or with damaged evidence.
 std::optional<PagePicture> toPicture(const urban_nav_core::MetricClosure& closure,
                                      const loop_metric::PlaceData& place_data, double way);
-/// The same of one try.
+/// Draws one registration attempt.
 std::optional<PagePicture> toPicture(const loop_metric::Evidence::Try& tried, const loop_metric::PlaceData& place_data,
                                      double way);
 

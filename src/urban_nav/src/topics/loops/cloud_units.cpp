@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kQueries = 200;
 constexpr float kWidestSpacing = 1.0F;  // m, between neighbours, median of a cloud in metres
-constexpr double kFarApart = 1000.0;    // m, beyond the clouds' own extent
+constexpr double kFarApart = 1000.0;    // m, in addition to the extent of the clouds
 constexpr float kOtherScale = 30.0F;    // ratio of the spacings of one cloud in metres and one in centimetres
 
 /// Returns the median distance from a point to its nearest neighbour, in the unit of the file; 0 for fewer than two.
@@ -47,7 +47,7 @@ double largestRadius(const urban_nav_core::PointCloud& cloud) {
 
 std::string describeSpacing(float spacing) {
   const bool is_millimetres = 0.01F * spacing > kWidestSpacing;
-  return "points are " + formatNumber(static_cast<double>(spacing), 3) + " apart (median), which fits coordinates in " +
+  return "points are " + formatNumber(static_cast<double>(spacing), 3) + " apart (median), as for coordinates in " +
          (is_millimetres ? "millimetres" : "centimetres") + ": give both clouds in metres (multiplied by " +
          (is_millimetres ? "0.001" : "0.01") + ")";
 }
@@ -62,8 +62,8 @@ std::string describeUnits(const CloudFile& source, const CloudFile& target) {
   if (std::min(a, b) > kWidestSpacing) return describeSpacing(std::min(a, b));
   const double apart = (target.offset - source.offset).norm();
   if (apart > kFarApart + largestRadius(source.cloud) + largestRadius(target.cloud))
-    return "their middles are " + formatNumber(1e-3 * apart, 5) +
-           " km apart: far apart as local coordinates and UTM are; give both in one frame, or --initial FILE";
+    return "their centres are " + formatNumber(1e-3 * apart, 5) +
+           " km apart, as local coordinates and UTM: give both in one frame, or --initial FILE";
   return {};
 }
 

@@ -7,9 +7,9 @@
 
 namespace urban_nav {
 
-/// Returns what the numbers of two clouds that cannot be aligned show of their units and frames, for the user: spacing
-/// far above that of scans in metres (centimetres, millimetres, or another scale in one of them), or middles kilometres
-/// apart (local coordinates and UTM). Empty where nothing is conspicuous. Clouds: as recentre() leaves them.
+/// Returns a hint on units and frames of two clouds that cannot be aligned, for the user: a point spacing far above
+/// that of scans in metres (centimetres, millimetres, or different scales), or centres kilometres apart (local
+/// coordinates and UTM). Empty without such a sign. Requires clouds after recentre().
 std::string describeUnits(const urban_nav_core::CloudFile& source, const urban_nav_core::CloudFile& target);
 
 }  // namespace urban_nav

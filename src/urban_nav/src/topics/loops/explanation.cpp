@@ -43,7 +43,7 @@ std::string formatVerdict(const StoredClosure& closure) {
   return edge.reason.empty() ? text : text + ": " + edge.reason;
 }
 
-/// Empty where nothing was measured.
+/// Returns the measured transform as text; empty without a measurement.
 std::string formatTransform(const StoredClosure& closure) {
   const urban_nav_core::Constraint& measured = closure.edge.measured;
   if (measured.information.isZero(0.0)) return {};
@@ -60,7 +60,7 @@ std::string formatTransform(const StoredClosure& closure) {
          part(5, r.z(), kExplainedDegrees) + " deg";
 }
 
-/// What a failed test would have needed.
+/// Returns the value required by a failed test.
 std::string describeNeeded(const ClosureTest& test) {
   if (test.passed) return {};
   return std::string(test.at_least ? "at least " : "at most ") + urban_nav_core::formatNumber(test.threshold, 4);
@@ -73,7 +73,7 @@ std::vector<std::string> toRow(const ClosureTest& test) {
 }
 
 PageTable makeTable(const std::string& title, const std::vector<ClosureTest>& tests) {
-  PageTable table{title, {"test", "value", "limit", "", "would have been needed"}, {}, ""};
+  PageTable table{title, {"test", "value", "limit", "", "required"}, {}, ""};
   for (const ClosureTest& test : tests) table.rows.push_back(toRow(test));
   return table;
 }
@@ -94,21 +94,21 @@ std::string toLines(const std::vector<ClosureTest>& tests) {
 }
 
 constexpr const char* kHowToReadViews =
-    "Lines: matches, green where they fit and red where they do not; grey: looked for and not found there.";
+    "Lines: matches, green inliers and red outliers; grey: features without a match.";
 constexpr const char* kHowToReadClouds =
-    "What the lasers saw around the first moment (red) and the second (blue): as odometry lays them, or one upon the "
-    "other where it says nothing, and as they were aligned. Purple: they agree. Dots: where the robot was.";
+    "Laser points around the first moment (red) and the second (blue): placed by odometry, or centred on each other "
+    "without it, and as aligned. Purple: coinciding points. Dots: positions of the robot.";
 constexpr const char* kGate = "Against odometry and its neighbours";
-constexpr const char* kNoEvidence = "The store holds no evidence of it: it was given, or measured by another program.";
+constexpr const char* kNoEvidence = "The store has no evidence for it: it was given, or measured by another program.";
 constexpr const char* kPlaneEvidence =
-    "Planes around both moments, which the lasers measured in two passes; how far the passes of each lie apart is in "
-    "quality.csv.";
+    "Planes around both moments, measured by the lasers in two passes; quality.csv has the distance between the "
+    "passes of each plane.";
 
 std::string sentenceWithoutEvidence(const StoredClosure& closure) {
   return closure.edge.kind == urban_nav_store::EdgeKind::Plane ? kPlaneEvidence : kNoEvidence;
 }
 
-/// The sessions of both moments under the names that the evidence has for them.
+/// Returns the sessions of both moments by their names in the evidence.
 std::vector<CandidateSession> namedIn(const StoredClosure& closure, const PreviousSessions& kept) {
   std::map<std::string, urban_nav_store::SessionId> ids;
   for (const Evidence::Try& each : closure.evidence.tries) {
@@ -127,7 +127,8 @@ std::vector<CandidateSession> namedIn(const StoredClosure& closure, const Previo
 std::string explain(const StoredClosure& closure) {
   std::string text = makeHeadline(closure) + "\n  " + formatVerdict(closure) + "\n";
   if (closure.probability)
-    text += "  probability of the places being one: " + urban_nav_core::formatNumber(*closure.probability, 4) + "\n";
+    text +=
+        "  probability that the places are the same: " + urban_nav_core::formatNumber(*closure.probability, 4) + "\n";
   if (const std::string transform = formatTransform(closure); !transform.empty()) text += "  " + transform + "\n";
   const Evidence& evidence = closure.evidence;
   for (std::size_t i = 0; i < evidence.tries.size(); ++i) {
@@ -152,7 +153,7 @@ Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, 
                            formatVerdict(closure) + ". " + formatTransform(closure)});
   if (closure.probability)
     page.tiles.push_back(
-        {urban_nav_core::formatNumber(*closure.probability, 4), "", "probability of one place", Grade::Plain});
+        {urban_nav_core::formatNumber(*closure.probability, 4), "", "probability of the same place", Grade::Plain});
   const Evidence& evidence = closure.evidence;
   for (std::size_t i = 0; i < evidence.tries.size(); ++i) {
     const Evidence::Try& each = evidence.tries[i];

@@ -11,15 +11,14 @@
 
 namespace urban_nav {
 
-/// Why a closure has its verdict, from what the store holds: all tests with value and limit, and what would have been
-/// needed.
+/// Explains the verdict on a closure from the evidence in the store: all tests with value and limit.
 std::string explain(const StoredClosure& closure);
-/// The same as a page, with the two views and their matches, and the two clouds, where the store has them.
-/// `cloud_half_length`: loop_metric's.
+/// Explains the verdict on a page, with the two views and their matches, and the two clouds, if stored.
+/// `cloud_half_length`: registration.cloud_half_length, m.
 Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, double cloud_half_length);
 Json explainAsJson(const StoredClosure& closure);
 
-/// A line for each closure: what `why` says where none is asked for.
+/// Returns a line for each closure, for `why` without a closure.
 std::string makeList(const std::vector<StoredClosure>& closures);
 
 }  // namespace urban_nav

@@ -45,7 +45,7 @@ Pose readInitial(const std::string& path) {
   const bool ends =
       numbers.size() == 12 || (numbers[12] == 0.0 && numbers[13] == 0.0 && numbers[14] == 0.0 && numbers[15] == 1.0);
   if (!rotates || !ends)
-    throw UserError(path, "a matrix that is no rigid transform", "a rotation and a translation, last row 0 0 0 1");
+    throw UserError(path, "a matrix that is not a rigid transform", "a rotation and a translation, last row 0 0 0 1");
   return Pose(R, top.col(3));
 }
 
@@ -124,7 +124,7 @@ std::string toText(const Alignment& alignment, double ms) {
   return text + std::to_string(alignment.iterations) + " iterations, " + urban_nav_core::formatNumber(ms, 3) + " ms\n";
 }
 
-/// The cloud of a file about its own middle: single precision and the linearised rotation hold near the origin alone.
+/// Reads a cloud, centred at its mean: single precision and the linearised rotation are accurate near the origin only.
 CloudFile readNamed(const std::string& path, Console& console) {
   CloudFile file = urban_nav_core::readCloud(path);
   std::size_t bad = 0;
@@ -175,11 +175,11 @@ std::string help(const Arguments& arguments) { return stageHelp(arguments, urban
 Command icpCommand() {
   Command command;
   command.name = "icp";
-  command.summary = "Aligns two point clouds: their transform, what it knows, and a verdict.";
+  command.summary = "Aligns two point clouds: transform, information and verdict.";
   const char* const formats = "PLY, PCD, LAS, or CSV with or without a header; .gz of each";
   command.options = {
-      {"SOURCE", "", std::string("the cloud that is moved: ") + formats, true, false, {}},
-      {"TARGET", "", std::string("the cloud it is laid on: ") + formats, true, false, {}},
+      {"SOURCE", "", std::string("source cloud, which is moved: ") + formats, true, false, {}},
+      {"TARGET", "", std::string("target cloud: ") + formats, true, false, {}},
       {"--initial",
        "FILE",
        "first guess of T_target_source: 12 or 16 numbers, row by row (default: the identity)",
@@ -188,8 +188,7 @@ Command icpCommand() {
        {}},
       {"--global",
        "",
-       "search for the pose at once, whatever the heading; without, only where the alignment from the guess is "
-       "rejected",
+       "search for the pose at all headings; otherwise only if the alignment from the guess is rejected",
        false,
        false,
        {}},

@@ -16,7 +16,7 @@
 
 namespace urban_nav {
 
-/// Extracts the keyframes of a session that loops and localization use, as selected by KeyframeChoice. Extraction runs
+/// Extracts the keyframes of a session for loops and localization, selected by KeyframeChoice. Extraction runs
 /// concurrently to the caller; keyframes are returned in order, each when the second one after it is selected, so the
 /// output does not depend on timing. Equal runs give equal keyframes, also if resumed after a bag.
 class KeyframeWriter {

@@ -19,7 +19,7 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-constexpr double kOpposite = 1.5707963267948966;  // rad: a turn of more than this is the opposite direction of travel
+constexpr double kOpposite = 1.5707963267948966;  // rad: larger rotations are the opposite direction of travel
 
 using Trajectories = std::map<std::string, Trajectory>;
 
@@ -29,7 +29,7 @@ bool isOpposite(const MetricClosure& closure) {
              urban_nav_core::Pose(urban_nav_core::Quaterniond::Identity(), closure.measured.T_a_b.t())) > kOpposite;
 }
 
-/// Kind and direction of travel, in words; empty where there is no transform.
+/// Returns kind and direction of travel as text; empty without a transform.
 std::string classify(const MetricClosure& closure) {
   if (closure.verdict != ClosureVerdict::Accepted) return {};
   return std::string(closure.method == ClosureMethod::Stereo ? "stereo" : "ICP") +
@@ -72,7 +72,7 @@ Plot emptyMap() {
   return plot;
 }
 
-/// Where each kind of closure was found: a dot at its later moment, a line to the earlier one.
+/// Plots closures by kind: a dot at the later pose, a line to the earlier one.
 Plot closuresPlot(const LoopsRun& run, const Trajectories& trajectories) {
   Plot plot = emptyMap();
   addPaths(plot, trajectories, "", "a", Series::Kind::Faint);
@@ -93,7 +93,7 @@ Plot closuresPlot(const LoopsRun& run, const Trajectories& trajectories) {
       const auto a = findPlace(trajectories, closure.a), b = findPlace(trajectories, closure.b);
       if (!a || !b) continue;
       dots.points.push_back(*b);
-      if (*kind == '\0') continue;  // a line to a place that is another one says nothing
+      if (*kind == '\0') continue;  // no line to a wrong place
       lines.points.insert(lines.points.end(), {*a, *b, {gap, gap}});
     }
     if (dots.points.empty()) continue;
@@ -107,10 +107,10 @@ PageTable kindsTable(const LoopsRun& run) {
   std::map<std::string, int> counts;
   for (const MetricClosure& closure : run.closures)
     ++counts[closure.verdict == ClosureVerdict::Accepted ? classify(closure) : "rejected: " + closure.reason_name];
-  PageTable table{"What became of the candidates",
+  PageTable table{"Results of the candidates",
                   {"", "candidates"},
                   {},
-                  "Each one with its reason is below, and in closures.csv."};
+                  "Each candidate with its reason is listed below and in closures.csv."};
   for (const auto& [name, number] : counts) table.rows.push_back({name, std::to_string(number)});
   return table;
 }
@@ -120,8 +120,8 @@ PageTable kindsTable(const LoopsRun& run) {
 Section loopsSection(const LoopsRun& run, const MapContext& context) {
   Section section{"loops",
                   "Loop closures",
-                  "Places that were said to be the same, and the motion between them: from two views where they can be "
-                  "registered, else from what the lasers saw around both moments.",
+                  "Candidates for revisited places, and the transform between them: from two views if they can be "
+                  "registered, else from the laser points around both moments.",
                   {},
                   run.pictures,
                   {kindsTable(run)}};
@@ -129,13 +129,13 @@ Section loopsSection(const LoopsRun& run, const MapContext& context) {
   for (const SessionTrajectory& session : context.trajectories) in_map.push_back(session.T_map_base);
   const Trajectories trajectories = byName(context.names, in_map);
   section.figures.push_back({"By kind and direction of travel", renderSvg(closuresPlot(run, trajectories)),
-                             "A dot where each candidate's later moment lies, a line to the earlier one.", true});
+                             "A dot at the later pose of each candidate, a line to the earlier one.", true});
   if (!context.stereo_only.empty()) {
     Plot plot = emptyMap();
-    addPaths(plot, byName(context.names, context.stereo_only), "stereo alone", "c", Series::Kind::Dashed);
+    addPaths(plot, byName(context.names, context.stereo_only), "stereo only", "c", Series::Kind::Dashed);
     addPaths(plot, trajectories, "stereo and ICP", "a", Series::Kind::Line);
     section.figures.push_back({"Without and with ICP", renderSvg(plot),
-                               "Dashed: relaxed over the closures by stereo alone. Line: over those by ICP too.",
+                               "Dashed: relaxed with the stereo closures only. Solid: with the ICP closures too.",
                                true});
   }
   return section;

@@ -15,7 +15,7 @@ namespace urban_nav {
 /// without closures by ICP (Figs. 19 and 20).
 Section loopsSection(const LoopsRun& run, const MapContext& context);
 
-/// Returns the main findings in plain words.
+/// Returns the main findings.
 std::vector<Verdict> loopsVerdicts(const LoopsRun& run);
 
 /// Returns the object "loop_metric" of summary.json.

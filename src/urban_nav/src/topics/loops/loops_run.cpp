@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kStereoPictures = 4, kIcpPictures = 3, kRejectedPictures = 3;  // in the report: some 60 kB each
+constexpr std::size_t kStereoPictures = 4, kIcpPictures = 3, kRejectedPictures = 3;  // in the report, about 60 kB each
 
 double closureMilliseconds(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
@@ -91,7 +91,7 @@ LoopsRun runLoops(const CandidateMeasurer& measurer, const std::vector<MetricClo
   for (const auto& [name, session] : measurer.sessions)
     if (!session.has_camera)
       run.warnings.push_back("views of session " + name +
-                             " are not matched: its camera is unknown, or it kept no views");
+                             " are not matched: its camera is unknown, or it has no views");
   run.closures = std::move(closures);
   return run;
 }

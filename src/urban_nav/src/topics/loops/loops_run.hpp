@@ -15,20 +15,20 @@ namespace urban_nav {
 /// Transforms of closure candidates.
 struct LoopsRun {
   std::vector<urban_nav_core::MetricClosure> closures;
-  std::vector<PagePicture> pictures;  ///< of a few of them: two keyframes with their matches, or two clouds
+  std::vector<PagePicture> pictures;  ///< of a few candidates: two keyframes with their matches, or two clouds
   std::size_t candidates = 0, accepted_stereo = 0, accepted_icp = 0, rejected = 0;
   double ms_median = 0.0, ms_p99 = 0.0;  ///< per candidate
   double ms = 0.0;                       ///< of all candidates
   std::vector<std::string> warnings;
 };
 
-/// Closures that were measured before, by their poses.
+/// Previously measured closures, by their poses.
 using MeasuredClosures =
     std::map<std::pair<urban_nav_core::PoseRef, urban_nav_core::PoseRef>, urban_nav_core::MetricClosure>;
 
-/// Measures the transforms of candidates from keyframes and scans of stores, which must be committed, but for those in
-/// `measured`, and compares all of them with each other. Uses the two times and the probability of each candidate
-/// alone. Runs on several threads; the result does not depend on their number.
+/// Measures the transforms of candidates that are not in `measured` from keyframes and scans of stores, which must be
+/// committed, and compares all closures with each other. Uses only the two times and the probability of each candidate.
+/// Runs on several threads; the result does not depend on their number.
 LoopsRun runLoops(const CandidateMeasurer& measurer, const std::vector<urban_nav_core::MetricClosure>& candidates,
                   const MeasuredClosures& measured, Console& console);
 

@@ -39,7 +39,7 @@ std::map<std::string, Beginning> readBeginnings(urban_nav_store::Store& store) {
   return result;
 }
 
-/// The probability in the row as it was offered, where the evidence begins with one.
+/// Returns the probability in the row of the candidate, if the evidence begins with one.
 std::optional<double> probabilityIn(const std::string& evidence) {
   const std::string_view row =
       std::string_view(evidence).substr(0, evidence.size() - loop_metric::evidenceIn(evidence).size());

@@ -11,26 +11,26 @@
 
 namespace urban_nav {
 
-/// A closure of a store with all that is known of it.
+/// A closure of a store with its evidence.
 struct StoredClosure {
-  std::int64_t id = 0;  ///< from 1; it stays for the life of the store
+  std::int64_t id = 0;  ///< from 1; permanent in the store
   urban_nav_store::Edge edge;
-  std::string name_a, name_b;           ///< of the sessions, for people
+  std::string name_a, name_b;           ///< names of the sessions
   double since_a = 0.0, since_b = 0.0;  ///< s from the first node of each session
-  std::optional<double> probability;    ///< of the places being one, where it is known
-  loop_metric::Evidence evidence;       ///< empty where there is none
+  std::optional<double> probability;    ///< that the places are the same, if known
+  loop_metric::Evidence evidence;       ///< may be empty
 };
 
-/// All closures of a store in the order of their ids: measured, asserted and rejected ones. DataError where evidence is
-/// damaged.
+/// Returns all closures of a store in the order of their ids: measured, asserted and rejected ones. Throws DataError
+/// for damaged evidence.
 std::vector<StoredClosure> listClosures(urban_nav_store::Store& store);
 
-/// The same of an edge that is not in the store, with evidence as the store would hold it; its id is 0.
+/// Returns the closure of an edge that is not in the store, with its packed evidence; its id is 0.
 StoredClosure describeEdge(urban_nav_store::Store& store, const urban_nav_store::Edge& edge,
                            const std::string& evidence);
 
-/// How far a closure is from these two moments, the larger of both, s; the moments may come in either order. Infinite
-/// where a session is another one.
+/// Returns the larger time difference, s, between the ends of a closure and two moments in any order. Infinite for
+/// other sessions.
 double computeDistance(const StoredClosure& closure, const TimeQuery& one, const TimeQuery& other);
 
 }  // namespace urban_nav

@@ -11,15 +11,15 @@
 
 namespace urban_nav {
 
-/// A session that candidates may name.
+/// A session that candidates may refer to.
 struct CandidateSession {
-  std::string name;  ///< as closures.csv has it
+  std::string name;  ///< in closures.csv
   urban_nav_store::SessionId id;
   const SessionOdometry* run = nullptr;
 };
 
-/// Returns what loop_metric needs of sessions whose keyframes and scans are in `store`. `camera`: to which keyframes of
-/// other cameras are converted; nullopt: keyframes are not needed.
+/// Returns the input of loop_metric for sessions whose keyframes and scans are in `store`. `camera`: camera to which
+/// keyframes of other cameras are converted; nullopt: keyframes are not needed.
 loop_metric::StoredPlaceData::Sessions storedSessions(
     const std::vector<CandidateSession>& sessions, urban_nav_store::Store& store,
     const std::optional<urban_nav_registration::MountedCamera>& camera);

@@ -15,7 +15,7 @@ constexpr double kAnnouncedAbove = 0.99;
 const cv::Vec3b kSamePlace(255, 226, 204), kRightMatch(62, 138, 43), kWrongMatch(40, 40, 214);
 constexpr double kFaintest = 0.01;  // probability drawn as white
 
-/// Squares of an image for pairs of rows: several px for each if there are few rows, several rows on one px otherwise.
+/// An image with a square per pair of rows: several px each for few rows, several rows per px otherwise.
 class MatrixCanvas {
  public:
   explicit MatrixCanvas(std::size_t rows)
@@ -24,7 +24,7 @@ class MatrixCanvas {
     const int side = std::max(1, (static_cast<int>(rows) + rows_per_px_ - 1) / rows_per_px_ * px_per_row_);
     pixels_ = cv::Mat(side, side, CV_8UC3, cv::Scalar(255, 255, 255));
   }
-  /// Draws where `colour` is darker in one of its channels.
+  /// Draws `colour` if it is darker in one of its channels.
   void darken(std::size_t row, std::size_t place, const cv::Vec3b& colour) {
     cv::Mat square = pixels_(at(row, place));
     cv::min(square, cv::Scalar(colour[0], colour[1], colour[2]), square);

@@ -9,10 +9,10 @@
 namespace urban_nav {
 
 /// Returns the confusion matrix as a PNG: images from top to bottom, earlier images from left to right. Grey:
-/// probability by words alone; blue: the same place in truth; green and red: announced above 0.99, right and wrong.
+/// probability by words only; blue: true revisits; green and red: reported above 0.99, correct and wrong.
 std::string confusionPng(const PlaceEvaluation& evaluation);
 
-/// Returns the same for a page.
+/// Returns the confusion matrix as a picture of a page.
 PagePicture confusionPagePicture(const PlaceEvaluation& evaluation);
 
 }  // namespace urban_nav

@@ -18,7 +18,7 @@ struct EvidenceOptions {
   fabmap_node::RecogniserOptions options;
 };
 
-/// Words alone, then what the options allow beside them; the last one equals the options.
+/// Returns words only, then each further kind of evidence of the options; the last one equals the options.
 std::vector<EvidenceOptions> evidenceSteps(const fabmap_node::RecogniserOptions& options) {
   std::vector<EvidenceOptions> steps;
   fabmap_node::RecogniserOptions words = options;

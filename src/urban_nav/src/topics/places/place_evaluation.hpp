@@ -11,7 +11,7 @@
 
 namespace urban_nav {
 
-/// A model measured against the truth.
+/// Evaluation of a model against the truth.
 struct PlaceEvaluation {
   struct Row {
     std::string name;
@@ -25,13 +25,13 @@ struct PlaceEvaluation {
   urban_nav_core::StampNs mask = 0;  ///< ns
   PlaceQuery query;                  ///< with the options of the user
   PlaceScore score;                  ///< of `query`
-  std::vector<Row> rows;             ///< words alone, then with each further evidence that the options allow
-  std::vector<Curve> words;          ///< Chow-Liu tree, naive Bayes, tf-idf: by words alone
+  std::vector<Row> rows;             ///< words only, then with each further kind of evidence of the options
+  std::vector<Curve> words;          ///< Chow-Liu tree, naive Bayes, tf-idf: by words only
   std::vector<WordProbability> confusion;
 };
 
-/// Recognises a recording with the options, and once for each kind of evidence less. `truth`: for the rows of a query.
-/// `progress`: share done. The result does not depend on the number of threads.
+/// Recognises a recording with the options, and with one kind of evidence less at a time. `truth`: for the rows of a
+/// query. `progress`: share done. The result does not depend on the number of threads.
 PlaceEvaluation evaluatePlaces(const fabmap_node::PlaceModel& model, const PlaceRecording& recording,
                                const fabmap_node::RecogniserOptions& options,
                                const std::function<PlaceTruth(const PlaceQuery&)>& truth,

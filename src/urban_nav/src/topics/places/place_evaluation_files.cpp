@@ -55,7 +55,7 @@ Plot precisionRecallPlot(const PlaceEvaluation& evaluation) {
 Plot reliabilityPlot(const PlaceScore& score) {
   Plot plot;
   plot.x_label = "stated probability";
-  plot.y_label = "share that is right";
+  plot.y_label = "share of correct ones";
   plot.y_from_zero = true;
   plot.y_top = 1.0;
   plot.series.push_back(namedSeries("as stated", "plain", Series::Kind::Dashed, {{0.0, 0.0}, {1.0, 1.0}}));
@@ -67,7 +67,7 @@ Plot reliabilityPlot(const PlaceScore& score) {
   return plot;
 }
 
-/// The path from above with the announced closures (Newman et al. 2009, Fig. 9).
+/// Plots the path from above with the reported closures (Newman et al. 2009, Fig. 9).
 Plot closuresPlot(const PlaceEvaluation& evaluation) {
   const PlaceTruth& truth = evaluation.truth;
   Plot plot;
@@ -134,7 +134,7 @@ std::string printConfusion(const PlaceEvaluation& evaluation) {
   return text;
 }
 
-/// The surest matches that are right, the surest that are wrong, and the least sure that are right.
+/// Returns the correct and wrong matches of highest probability, and the correct ones of lowest probability.
 std::vector<PagePicture> matchPictures(const PlaceEvaluation& evaluation, const PlaceRecording& recording) {
   std::vector<RankedMatch> right, wrong;
   for (const RankedMatch& match : rankedMatches(evaluation.query)) {
@@ -162,7 +162,7 @@ std::vector<PagePicture> matchPictures(const PlaceEvaluation& evaluation, const 
   };
   add("Right", right, false);
   add("Wrong", wrong, false);
-  if (right.size() > 2 * kPicturesOfAKind) add("Right, but the least sure", right, true);
+  if (right.size() > 2 * kPicturesOfAKind) add("Correct, with the lowest probability", right, true);
   return pictures;
 }
 
@@ -172,8 +172,8 @@ std::string countText(std::size_t part, std::size_t whole) {
 
 PageTable evidenceTable(const PlaceEvaluation& evaluation) {
   PageTable table{"Evidence",
-                  {"", "right place first", "recall at 100 % precision", "above 0.99: right", "0.9 to 0.99: right",
-                   "revisits announced or beside one", "calibration error"},
+                  {"", "correct place ranked first", "recall at 100 % precision", "above 0.99: correct",
+                   "0.9 to 0.99: correct", "revisits reported, or next to one", "calibration error"},
                   {},
                   "Mask " + urban_nav_core::formatNumber(static_cast<double>(evaluation.mask) * 1e-9, 6) +
                       " s; right within " + urban_nav_core::formatNumber(evaluation.truth.radius) + " " +
@@ -211,7 +211,7 @@ Page evaluationPage(const PlaceEvaluation& evaluation, const PlaceRecording& rec
   section.figures.push_back({"Precision and recall", renderSvg(precisionRecallPlot(evaluation)),
                              "Words alone by three formulas, and all evidence.", false});
   section.figures.push_back({"Reliability", renderSvg(reliabilityPlot(evaluation.score)),
-                             "Claims of a range of probabilities, and how many are right.", false});
+                             "Observations by stated probability, and the share of correct ones.", false});
   if (evaluation.truth.unit == "m")
     section.figures.push_back({"Closures announced above 0.99", renderSvg(closuresPlot(evaluation)), "", true});
   section.tables = {evidenceTable(evaluation), reliabilityTable(evaluation.score)};

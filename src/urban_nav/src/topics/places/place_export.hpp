@@ -13,10 +13,9 @@ struct ExportedPlaces {
   std::vector<std::string> files;  ///< places.csv, then models; thumbnails are not listed
 };
 
-/// Writes the places of the given sessions into a folder, which is made: `places.csv`, a row per place with its pose in
-/// `map` (empty outside the trajectory) and the name of its thumbnail (docs/files.md); `thumbnails/`; and the models
-/// whose words they are, for `places query`. Throws DataError if there is no place, UserError if a file cannot be
-/// written.
+/// Writes the places of the given sessions into a new folder: `places.csv`, a row per place with its pose in `map`
+/// (empty outside the trajectory) and the name of its thumbnail (docs/files.md); `thumbnails/`; and the models of their
+/// words, for `places query`. Throws DataError without places, UserError if a file cannot be written.
 ExportedPlaces exportPlaces(urban_nav_store::Store& store,
                             const std::vector<std::vector<urban_nav_store::StoredTrajectory>>& maps,
                             const std::string& folder);

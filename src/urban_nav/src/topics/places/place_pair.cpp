@@ -25,7 +25,7 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-constexpr double kFarthestPlace = 1.0;  // s from the time asked for
+constexpr double kFarthestPlace = 1.0;  // s from the requested time
 
 struct SessionPlaces {
   urban_nav_store::Session session;
@@ -102,20 +102,20 @@ std::string findReason(const PlacePair& pair) {
     if (end->row.status != toString(ObservationStatus::Used))
       return "the observation of " + end->name + " +" + urban_nav_core::formatNumber(end->since, 6) +
              " s is not used: " + end->row.status;
-  if (pair.is_masked) return "both are of one session, and too near in time to be a revisit (fabmap_node.mask)";
+  if (pair.is_masked) return "both are of one session and too close in time for a revisit (fabmap_node.mask)";
   const fabmap_node::PlaceComparison& comparison = *pair.comparison;
   if (!comparison.is_compared)
-    return "the place is not among those most alike by words and a first look, which are compared in full";
+    return "the place is not among the most similar ones by words, which are compared by descriptors";
   if (!comparison.is_first)
-    return "another place is more like the query: only the likeliest is proposed, and the likeliest of another session";
+    return "another place is more similar: only the likeliest place and the likeliest of another session are proposed";
   if (pair.probability <= pair.closure_probability)
     return "the probability is not above " + urban_nav_core::formatNumber(pair.closure_probability) +
            " (fabmap_node.closure_probability)";
-  return "it is likely enough; the number of closures per metre and between two stretches is limited "
-         "(fabmap_node.closures_per_metre, enough_closures), or the observations before it spoke against it";
+  return "its probability is sufficient; the number of closures per metre and between two stretches is limited "
+         "(fabmap_node.closures_per_metre, enough_closures), or the previous observations contradict it";
 }
 
-/// Holds the query against all places before it, as a run over the sessions does.
+/// Compares the query with all previous places, as in a run over the sessions.
 void compareInMap(const std::vector<SessionPlaces>& sessions, const PlaceNumber& earlier, const PlaceNumber& query,
                   const fabmap_node::PlaceModel& model, const fabmap_node::Parameters& parameters, PlacePair& pair) {
   const fabmap_node::LikelihoodTable table(model.tree, model.detector, fabmap_node::Dependence::ChowLiu);
@@ -151,14 +151,17 @@ PlacePair explainPlaces(urban_nav_store::Store& store, const TimeQuery& one, con
   if (sessions.empty()) throw DataError(store.path(), "holds no places", "a store of map with the stage places");
   PlaceNumber earlier = nearestPlace(sessions, one, store.path(), "T1"),
               query = nearestPlace(sessions, other, store.path(), "T2");
-  if (earlier == query) throw DataError(store.path(), "has one place for both times", "two times further apart");
+  if (earlier == query)
+    throw DataError(store.path(), "has one place for both times",
+                    "two times with a larger "
+                    "distance");
   if (query < earlier) std::swap(earlier, query);
   PlacePair pair;
   pair.earlier = describeEnd(sessions[earlier.session], earlier.row);
   pair.query = describeEnd(sessions[query.session], query.row);
   pair.closure_probability = parameters.closure_probability;
   if (pair.earlier.row.model != pair.query.row.model)
-    throw DataError(store.path(), "has words of two models for these times", "sessions mapped with one model");
+    throw DataError(store.path(), "has words of two models for these times", "sessions mapped with the same model");
   const fabmap_node::PlaceModel model = readStoredModel(store, pair.query.row);
   const auto words_a = fabmap_node::toPlaceDescription(pair.earlier.row, model.vocabulary.size()).words,
              words_b = fabmap_node::toPlaceDescription(pair.query.row, model.vocabulary.size()).words;

@@ -14,7 +14,7 @@
 
 namespace urban_nav {
 
-/// What place recognition makes of two observations, from the words and descriptors in a store.
+/// Comparison of two observations by place recognition, from the words and descriptors in a store.
 struct PlacePair {
   struct End {
     urban_nav_store::StoredPlace row;
@@ -24,11 +24,11 @@ struct PlacePair {
   };
   End earlier, query;  ///< the query is the later one in the order of the sessions
   std::size_t shared_words = 0;
-  bool is_masked = false;                                  ///< of one session, and too near in time
+  bool is_masked = false;                                  ///< of one session, and too close in time
   std::optional<fabmap_node::PlaceComparison> comparison;  ///< nullopt if one of them cannot be used
   double probability = 0.0;                                ///< of the observation alone, without the sequence
   double closure_probability = 0.0;                        ///< limit above which a closure is proposed
-  std::string reason;                                      ///< why it was not proposed
+  std::string reason;                                      ///< reason why it was not proposed
 };
 
 /// Explains the two places nearest to these times. Throws DataError if the store holds no places, no place within 1 s

@@ -13,7 +13,7 @@ std::string printEnd(const PlacePair::End& end) {
          urban_nav_core::printStamp(end.row.stamp) + ")";
 }
 
-/// Two columns: what, how much.
+/// Returns rows of name and value.
 std::vector<std::vector<std::string>> placeFigures(const PlacePair& pair) {
   std::vector<std::vector<std::string>> rows = {{"words", std::to_string(pair.earlier.words) + " and " +
                                                               std::to_string(pair.query.words) + ", shared " +

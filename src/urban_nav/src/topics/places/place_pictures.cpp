@@ -18,7 +18,7 @@ constexpr std::size_t kSurePictures = 4, kUnsurePictures = 4;
 
 using BeliefRefs = std::vector<const PlaceBelief*>;
 
-/// The surest recognitions and the least sure of those proposed, each spread over the run.
+/// Returns the recognitions of highest probability and the proposed ones of lowest, each spread over the run.
 BeliefRefs spreadBeliefs(BeliefRefs beliefs, std::size_t most) {
   if (beliefs.size() <= most) return beliefs;
   BeliefRefs some;

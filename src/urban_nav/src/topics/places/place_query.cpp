@@ -100,7 +100,7 @@ std::vector<Option> placeQueryOptions() {
   return {
       {"--mask",
        "S",
-       "places of the same session that are younger are no candidates, s (default 20)",
+       "places of the same session younger than this are not candidates, s (default 20)",
        false,
        false,
        {}},
@@ -112,7 +112,7 @@ std::vector<Option> placeQueryOptions() {
        {"on", "off"}},
       {"--sequence",
        "on,off",
-       "the images before an image count as evidence for places of other sessions (default on)",
+       "use the previous images as evidence for places of other sessions (default on)",
        false,
        false,
        {"on", "off"}},

@@ -46,17 +46,17 @@ PlaceQuery queryPlaces(const fabmap_node::PlaceModel& model, const std::vector<s
 PlaceRecording recordPlaces(const fabmap_node::PlaceModel& model, const std::vector<std::string>& inputs,
                             const std::vector<std::string>& topics, const fabmap_node::MatcherOptions& options,
                             Console& console);
-/// Returns what queryPlaces() does, for a recording: one row for each of its places. `progress`: called after each.
+/// Like queryPlaces(), for a recording: returns one row for each of its places. `progress`: called after each.
 PlaceQuery recognisePlaces(const fabmap_node::PlaceModel& model, const PlaceRecording& recording,
                            const fabmap_node::RecogniserOptions& options,
                            const std::function<void(std::size_t done)>& progress = {});
 
-/// Reads the model at `path`; `default` is the one that the suite comes with.
+/// Reads the model at `path`; `default` is that of the suite.
 fabmap_node::PlaceModel readPlaceModel(const std::string& path);
 
 /// Options that query and evaluate share.
 std::vector<Option> placeQueryOptions();
-/// Reads them. Throws UserError.
+/// Reads the options of placeQueryOptions(). Throws UserError.
 fabmap_node::RecogniserOptions placeRecogniserOptions(const Arguments& arguments);
 
 }  // namespace urban_nav

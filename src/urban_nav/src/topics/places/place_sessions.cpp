@@ -30,7 +30,7 @@ StampedObservation describeImages(const fabmap_node::FeatureExtractor& extractor
 void readPlaceSessions(const std::vector<std::string>& inputs, const std::vector<std::string>& topics, Console& console,
                        const PlaceReading& reading, const std::function<void(std::size_t, const std::string&)>& session,
                        const std::function<void(StampedObservation)>& place) {
-  std::vector<std::unique_ptr<PlaceSource>> sources;  // all opened first: a mistake is reported before work begins
+  std::vector<std::unique_ptr<PlaceSource>> sources;  // all opened first, to report errors before the run
   for (const std::string& input : inputs) sources.push_back(openPlaceSource(input, topics));
   const fabmap_node::FeatureExtractor extractor;
   std::vector<std::string> names;

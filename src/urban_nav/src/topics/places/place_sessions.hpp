@@ -16,10 +16,10 @@ struct StampedObservation {
   urban_nav_core::StampNs stamp = 0;
   fabmap_node::PlaceObservation observation;  ///< without a describer
   fabmap_node::PlaceDescription description;  ///< with a describer
-  std::string thumbnail;                      ///< JPEG, if wanted
+  std::string thumbnail;                      ///< JPEG, if requested
 };
 
-/// What is wanted of each observation.
+/// Requested content of each observation.
 struct PlaceReading {
   const fabmap_node::PlaceDescriber* describer = nullptr;  ///< null: features instead of descriptions
   bool with_thumbnails = false;
@@ -27,8 +27,8 @@ struct PlaceReading {
 
 /// Reads sessions one after the other and extracts their features on several threads. `session` is called with the
 /// index and the name of each session before its observations, `place` for each observation in order of time. The order
-/// of calls does not depend on the number of threads. Descriptions are made on the same threads. Reports progress
-/// and notes to `console`. Throws as openPlaceSource().
+/// of calls does not depend on the number of threads. Descriptions are computed on the same threads. Reports
+/// progress and notes to `console`. Throws the errors of openPlaceSource().
 void readPlaceSessions(const std::vector<std::string>& inputs, const std::vector<std::string>& topics, Console& console,
                        const PlaceReading& reading,
                        const std::function<void(std::size_t index, const std::string& name)>& session,

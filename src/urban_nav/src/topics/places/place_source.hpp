@@ -23,11 +23,11 @@ class PlaceSource {
  public:
   virtual ~PlaceSource() = default;
   virtual const std::string& path() const = 0;
-  /// Returns the number of places expected; 0 if it is unknown.
+  /// Returns the expected number of places; 0 if unknown.
   virtual std::size_t expected() const = 0;
-  /// Returns the next images; nullopt at the end. Throws DataError if the input cannot be read on.
+  /// Returns the next images; nullopt at the end. Throws DataError if the input becomes unreadable.
   virtual std::optional<PlaceImages> next() = 0;
-  /// Returns what the user should know: chosen topics, images that could not be read.
+  /// Returns notes for the user: chosen topics, images that could not be read.
   virtual const std::vector<std::string>& notes() const = 0;
 };
 

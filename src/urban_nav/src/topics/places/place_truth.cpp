@@ -21,10 +21,10 @@ namespace {
 
 constexpr StampNs kLongestGap = 1'000'000'000;  // ns between poses of the truth
 constexpr double kRadiusOfPositions = 3.0,
-                 kElsewhereOfPositions = 20.0;     // images: as data sets with positions state it
+                 kElsewhereOfPositions = 20.0;     // images, as for data sets with positions
 constexpr double kElsewherePerRadius = 4.0 / 3.0;  // of metres: 10 m for 7.5 m
 constexpr double kCertain = 0.99, kNearlyCertain = 0.9;
-constexpr double kNearMetres = 2.0, kNearImages = 1.0;  // between a pose and an announced closure
+constexpr double kNearMetres = 2.0, kNearImages = 1.0;  // between a pose and a reported closure
 constexpr std::array<double, 12> kClaimLimits = {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.99, 1.0};
 
 bool isPositionTable(const std::string& text, const std::string& path) {
@@ -48,7 +48,7 @@ PlaceTruth truthOfPositions(const std::string& text, const std::string& path, co
   return truth;
 }
 
-/// Distance of two rows in the truth; nullopt if it does not reach one of them.
+/// Returns the distance of two rows in the truth; nullopt if one is outside the truth.
 std::optional<double> distanceBetween(const PlaceTruth& truth, std::size_t a, std::size_t b) {
   if (!truth.positions[a] || !truth.positions[b]) return std::nullopt;
   return (*truth.positions[a] - *truth.positions[b]).norm();
@@ -90,7 +90,7 @@ std::vector<ReliabilityBin> emptyBins() {
   return bins;
 }
 
-/// Turns sums into means, and leaves out bins without claims.
+/// Converts sums to means, and removes empty bins.
 void finishBins(PlaceScore& score) {
   auto& bins = score.reliability;
   bins.erase(std::remove_if(bins.begin(), bins.end(), [](const ReliabilityBin& bin) { return bin.claims == 0; }),
@@ -161,7 +161,7 @@ RankingScore scoreRanking(const std::vector<RankedMatch>& matches, const PlaceTr
     score.first += is_right && revisits[match.row] ? 1u : 0u;
     judged.emplace_back(match.score, is_right);
   }
-  // Of equal scores, wrong matches come first: none is found by luck.
+  // Of equal scores, wrong matches come first, so that ties do not improve the result.
   std::sort(judged.begin(), judged.end(),
             [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
   std::size_t right = 0, wrong = 0;

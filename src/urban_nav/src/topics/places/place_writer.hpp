@@ -23,10 +23,10 @@ struct LoadedPlaceModel {
   fabmap_node::PlaceModel model;
 };
 
-/// Reads the model that the parameter names. Throws UserError or DataError.
+/// Reads the model given by the parameter. Throws UserError or DataError.
 std::shared_ptr<const LoadedPlaceModel> loadPlaceModel(const fabmap_node::Parameters& parameters);
 
-/// Describes the observations of one session, each in a thread of its own while the next are read. Rows are returned in
+/// Describes the observations of one session, each in a separate thread while the next ones are read. Returns rows in
 /// order, so that the output does not depend on timing. Not thread-safe.
 class PlaceWriter {
  public:
@@ -37,8 +37,7 @@ class PlaceWriter {
   /// Returns grey images by camera number; an empty one is missing.
   using Images = std::function<std::vector<cv::Mat>()>;
 
-  /// Place: all that recognition compares, and a thumbnail. Keyframe: what localization needs, and the keyframe itself
-  /// is stored beside it.
+  /// Place: data for recognition, and a thumbnail. Keyframe: data for localization, in addition to the stored keyframe.
   enum class Kind { Place, Keyframe };
 
   PlaceWriter(std::shared_ptr<const LoadedPlaceModel> model, const fabmap_node::Parameters& parameters,

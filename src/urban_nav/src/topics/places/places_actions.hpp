@@ -5,7 +5,7 @@
 
 namespace urban_nav {
 
-/// Actions of `urban_nav places` beside replay.
+/// Actions of `urban_nav places` other than replay.
 Command placesTrainAction();
 Command placesQueryAction();
 Command placesEvaluateAction();

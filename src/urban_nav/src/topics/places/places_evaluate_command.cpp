@@ -90,12 +90,12 @@ Command placesEvaluateAction() {
   Command action;
   action.name = "evaluate";
   action.summary = "Measures precision and recall of a model against the truth.";
-  action.options = {{"MODEL", "", "model of places train; default: the one of the suite", true, false, {}},
+  action.options = {{"MODEL", "", "model of places train; default: the model of the suite", true, false, {}},
                     {"SRC", "", "folders of images, or bags: consecutive sessions", true, true, {}},
                     {"--truth", "FILE", "CSV with columns image and position, or a TUM trajectory", true, false, {}},
                     {"--radius",
                      "R",
-                     "nearer is the same place (default 7.5 m for a trajectory, 3 images for positions)",
+                     "largest distance of the same place (default 7.5 m for a trajectory, 3 images for positions)",
                      false,
                      false,
                      {}},

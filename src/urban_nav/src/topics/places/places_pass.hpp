@@ -11,7 +11,7 @@
 namespace urban_nav {
 
 /// Stores the places of a session while it is read: its panoramas, or the left images of its keyframes without them.
-/// Beside panoramas, left images are described too, for localization, which finds keyframes by them.
+/// With panoramas, left images are also described, by which localization finds keyframes.
 class PlacesPass final : public SessionPass {
  public:
   /// `ms_features`: receives the time of each observation; must outlive the object.
@@ -32,7 +32,7 @@ class PlacesPass final : public SessionPass {
   urban_nav_store::SessionId id_;
   std::vector<std::size_t> cameras_;  // numbers of the panorama's cameras; empty: left images
   urban_nav_registration::KeyframeSelector selector_;
-  PlaceWriter writer_, keyframe_writer_;  // the latter beside panoramas
+  PlaceWriter writer_, keyframe_writer_;  // the latter if there are panoramas
   std::vector<double>& ms_features_;
 };
 

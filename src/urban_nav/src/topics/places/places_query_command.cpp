@@ -59,7 +59,7 @@ Command placesQueryAction() {
   action.name = "query";
   action.summary =
       "Writes the most likely earlier place of every image, with the probability that it is the same place.";
-  action.options = {{"MODEL", "", "model of places train; default: the one of the suite", true, false, {}},
+  action.options = {{"MODEL", "", "model of places train; default: the model of the suite", true, false, {}},
                     {"SRC", "", "folders of images, or bags: consecutive sessions", true, true, {}},
                     {"-o,--output",
                      "CLOSURES.csv",

@@ -33,7 +33,7 @@ KnowledgeCounts countKnowledge(const PlacesRun& run) {
 
 std::string observationWord(const PlacesRun& run) { return run.has_panoramas ? "panoramas" : "images"; }
 
-/// Probability of the likeliest place over time; the sessions follow one another.
+/// Plots the probability of the likeliest place over time; sessions follow one another.
 Plot beliefPlot(const PlacesRun& run) {
   Plot plot;
   plot.x_label = "time driven (s)";
@@ -68,13 +68,13 @@ Plot beliefPlot(const PlacesRun& run) {
 
 PageTable knowledgeTable(const PlacesRun& run) {
   const KnowledgeCounts counts = countKnowledge(run);
-  PageTable table{"What became of the " + observationWord(run),
+  PageTable table{"Results of the " + observationWord(run),
                   {"", observationWord(run)},
                   {{"KNOWN: a place of the map", std::to_string(counts.known)},
                    {"UNSURE", std::to_string(counts.unsure)},
                    {"NEW", std::to_string(counts.fresh)},
-                   {"robot stood still", std::to_string(counts.stationary)}},
-                  "Closures are proposed for KNOWN and UNSURE places; geometry decides."};
+                   {"robot at rest", std::to_string(counts.stationary)}},
+                  "Closures are proposed for KNOWN and UNSURE places and verified by geometry."};
   for (const auto& [reason, number] : run.unused) table.rows.push_back({"not used: " + reason, std::to_string(number)});
   if (run.incomplete > 0) table.rows.push_back({"with a camera missing", std::to_string(run.incomplete)});
   return table;
@@ -87,10 +87,10 @@ Section placesSection(const PlacesRun& run, const std::vector<PagePicture>& pict
   section.id = "places";
   section.title = "Places";
   section.introduction =
-      "Places are recognised by their appearance alone (FAB-MAP). The probability that an observation shows a place of "
-      "the map is calibrated on drives that the model was not trained with.";
-  section.figures.push_back(
-      {"Belief over time", renderSvg(beliefPlot(run)), "One dot per observation; sessions follow one another.", true});
+      "Places are recognised by appearance only (FAB-MAP). The probability that an observation shows a place of "
+      "the map is calibrated on drives not used for training.";
+  section.figures.push_back({"Probability over time", renderSvg(beliefPlot(run)),
+                             "One dot per observation; sessions follow one another.", true});
   section.pictures = pictures;
   section.tables.push_back(knowledgeTable(run));
   return section;

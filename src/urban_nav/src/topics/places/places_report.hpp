@@ -10,7 +10,7 @@ namespace urban_nav {
 /// side (Newman et al. 2009, Figs. 6 and 7), and observations that were not used.
 Section placesSection(const PlacesRun& run, const std::vector<PagePicture>& pictures);
 
-/// Returns the main finding in plain words.
+/// Returns the main finding.
 std::vector<Verdict> placesVerdicts(const PlacesRun& run);
 
 /// Returns the object "fabmap_node" of summary.json. `ms_features`: per observation.

@@ -21,8 +21,8 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-/// Distances along the smoothed odometry, which the store keeps: a session gives the same places whether it was read
-/// just now or by an earlier run.
+/// Returns distances along the smoothed odometry, which is in the store, so that places do not depend on whether a
+/// session was read by this or an earlier run.
 TravelledDistance travelledDistance(const SessionOdometry& run) {
   TravelledDistance travelled;
   for (const SmoothedFrame& frame : run.settled) travelled.add(frame.stamp, frame.T_odom_base.pose.t());
@@ -70,7 +70,7 @@ class PlaceRecognitionRun {
     result_.places = map_.places();
     if (other_model_ > 0)
       result_.warnings.push_back(std::to_string(other_model_) +
-                                 " places of previous sessions have the words of another model and are not used");
+                                 " places of previous sessions have words of a different model and are not used");
     return std::move(result_);
   }
 

@@ -26,9 +26,9 @@ struct PlacesRun {
   std::vector<std::string> warnings;
 };
 
-/// Recognises the places of the sessions of this run, and of all sessions where it joins them, in order, in the rows
-/// that the store holds. Places of other sessions are known from the beginning. The result does not depend on the
-/// number of threads.
+/// Recognises the places of the sessions of this run, or of all sessions if it joins them, in order, from the rows of
+/// the store. Places of other sessions are in the map from the beginning. The result does not depend on the number of
+/// threads.
 PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model,
                     const MapContext& context);
 
@@ -36,8 +36,8 @@ PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlace
 void addProposed(const std::vector<urban_nav_core::TopologicalClosure>& proposed,
                  std::vector<urban_nav_core::MetricClosure>& closures);
 
-/// Returns pairs of thumbnails of recognised places, the query below the place: a few of the surest, and a few of the
-/// least sure above the threshold for closures.
+/// Returns pairs of thumbnails of recognised places, the query below the place: some with the highest probability, and
+/// some with the lowest above the threshold for closures.
 std::vector<PagePicture> placePictures(const PlacesRun& run, const MapContext& context);
 
 }  // namespace urban_nav

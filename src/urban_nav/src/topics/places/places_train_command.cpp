@@ -25,7 +25,7 @@ Json trainSummary(const fabmap_node::PlaceModel& model, const std::string& bytes
   return json;
 }
 
-/// Priors by the calibrations they belong to, with the losses by which they were chosen.
+/// Returns the priors by calibration, with the losses of their selection.
 Json priorSummary(const std::vector<fabmap_node::CalibrationPrior>& priors) {
   Json json = Json::object();
   for (const fabmap_node::CalibrationPrior& prior : priors) {
@@ -40,7 +40,7 @@ Json priorSummary(const std::vector<fabmap_node::CalibrationPrior>& priors) {
   return json;
 }
 
-/// Groups sources by their --site; the first of each opens it.
+/// Returns the number of the site of each source by --site, in the order of first occurrence.
 std::vector<std::size_t> siteNumbers(const std::vector<std::string>& names, std::size_t sources) {
   if (!names.empty() && names.size() != sources)
     throw urban_nav_core::UserError("--site", std::to_string(names.size()) + " names",
@@ -133,7 +133,7 @@ int runTrain(const Arguments& arguments, Console& console) {
                std::to_string(report.right) + " pairs of one place and " + std::to_string(report.wrong) +
                " of two; model " + fabmap_node::modelHash(bytes) + ", " + std::to_string(bytes.size()) + " bytes");
   if (report.right == 0 || report.wrong == 0)
-    console.warn("too few images to calibrate: nothing will be announced as certain");
+    console.warn("too few images to calibrate: no place will be reported as KNOWN");
   if (arguments.has("json")) {
     Json json = trainSummary(trained.model, bytes);
     json["images"] = static_cast<std::int64_t>(report.observations);
@@ -151,31 +151,31 @@ Command placesTrainAction() {
   action.name = "train";
   action.summary = "Trains a model of places: vocabulary, Chow-Liu tree, sampled places and calibration.";
   action.options = {
-      {"SRC", "", "folders of images, or bags; each is a drive, of other places than the others", true, true, {}},
+      {"SRC", "", "folders of images, or bags; each is a drive through different places", true, true, {}},
       {"-o,--output", "MODEL", "model to write", true, false, {}},
       {"--words", "N", "size of the vocabulary, 10 ... 1000000 (default 4000)", false, false, {}},
       {"--features", "KIND", "detector and descriptor: upright, the only kind", false, false, {"upright"}},
       {"--sampled", "N", "observations stored for the likelihood of a new place (default 400)", false, false, {}},
       {"--calibrate",
        "MODEL",
-       "takes words and tree from MODEL and only calibrates it, on days at known positions",
+       "only calibrate MODEL, keeping its words and tree, on days with known positions",
        false,
        false,
        {}},
       {"--truth",
        "FILE.tum",
-       "with --calibrate: poses, one file for each SRC; those of one site share a frame",
+       "with --calibrate: poses, one file for each SRC; poses of one site are in one frame",
        false,
        true,
        {}},
       {"--site",
        "NAME",
-       "with --calibrate: site of each SRC; another site never shows the same place (default: one site)",
+       "with --calibrate: site of each SRC; different sites have no common places (default: one site)",
        false,
        true,
        {}},
       {"--topic", "ROLE:=NAME", "topics of bags: panorama0 ... panorama4, left (default: guessed)", false, true, {}},
-      {"--seed", "N", "of the first cluster centres (default 1)", false, false, {}},
+      {"--seed", "N", "seed of the initial cluster centres (default 1)", false, false, {}},
       jsonOption(),
       configOption(),
       setOption(),

@@ -27,7 +27,7 @@ double logMeanExponential(const std::vector<double>& logs) {
   return top + std::log(sum / static_cast<double>(logs.size()));
 }
 
-/// Observations in order, each compared with those before.
+/// Observations in order, each compared with the previous ones.
 using ScorePlacesOfMap = std::function<void(const fabmap_node::WordSet& query, std::vector<double>& scores)>;
 using AddToMap = std::function<void(const fabmap_node::WordSet& place)>;
 using TakeScores =

@@ -8,16 +8,16 @@
 
 namespace urban_nav {
 
-/// How words alone rank earlier places.
+/// Scores of earlier places by words only.
 enum class WordScoring {
   ChowLiu,     ///< log likelihood ratio to a new place per word, words dependent as in the tree
-  NaiveBayes,  ///< the same with independent words
+  NaiveBayes,  ///< log likelihood ratio with independent words
   TfIdf        ///< cosine similarity of weighted words
 };
 /// "Chow-Liu tree", "naive Bayes", "tf-idf".
 const char* toString(WordScoring scoring);
 
-/// Returns the best earlier place of each usable observation outside the mask (ns), by its words alone.
+/// Returns the best earlier place of each usable observation outside the mask (ns), by its words only.
 std::vector<RankedMatch> rankByWords(const fabmap_node::PlaceModel& model, const PlaceRecording& recording,
                                      WordScoring scoring, urban_nav_core::StampNs mask);
 
@@ -29,7 +29,7 @@ struct WordProbability {
 };
 /// Returns the probabilities above `least` of earlier places and of a new one, given the words of each observation
 /// (Newman et al. 2009, eq. 4-7): Chow-Liu tree, the new place sampled, 0.9 of the prior on the new place and the rest
-/// equally on the others. Those of one observation sum to 1, those below `least` included.
+/// equally on the others. The probabilities of one observation sum to 1, including those below `least`.
 std::vector<WordProbability> wordProbabilities(const fabmap_node::PlaceModel& model, const PlaceRecording& recording,
                                                urban_nav_core::StampNs mask, double least = 0.01);
 

@@ -9,7 +9,7 @@ using urban_nav_store::DepthView;
 
 namespace {
 
-constexpr int kLeastStep = 2;  // px: windows of matching overlap, neighbouring pixels add little
+constexpr int kLeastStep = 2;  // px; matching windows overlap, neighbouring pixels add little information
 constexpr std::int64_t kMostSamples = 60'000;
 
 int samplingStep(int width, int height) {

@@ -97,7 +97,7 @@ int runDisparity(const Arguments& arguments, Console& console) {
   if (!result.status.sentence.empty()) console.warn(result.status.sentence);
   writeDisparity(output, result.image, images.pair.left, images.camera);
   if (arguments.has("variance")) writeVariance(arguments.get("variance"), result.image);
-  console.print(urban_nav_core::formatNumber(100.0 * result.answered, 3) + " % of the pixels answered, " +
+  console.print(urban_nav_core::formatNumber(100.0 * result.answered, 3) + " % of the pixels matched, " +
                 urban_nav_core::formatNumber(ms, 3) + " ms\n");
   return 0;
 }

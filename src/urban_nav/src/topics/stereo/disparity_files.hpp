@@ -9,12 +9,12 @@
 
 namespace urban_nav {
 
-/// Checks the ending of a name for writeDisparity. Throws UserError that names `option` and the three endings.
+/// Checks the extension of a name for writeDisparity. Throws UserError naming `option` and the three extensions.
 void checkDisparityName(const std::string& path, const std::string& option);
 
-/// Writes disparities by the ending of `path`: .pfm (px, NaN where invalid), .png (colours from far, blue, to near,
-/// red; black where invalid) or .ply (points in the left optical frame, m, with the grey level of the left image and
-/// the standard deviation along z). Throws UserError if the file cannot be written.
+/// Writes disparities in the format of the extension of `path`: .pfm (px, NaN where invalid), .png (colours from far,
+/// blue, to near, red; black where invalid) or .ply (points in the left optical frame, m, with the grey level of the
+/// left image and the standard deviation along z). Throws UserError if the file cannot be written.
 void writeDisparity(const std::string& path, const dense_stereo::DisparityImage& image,
                     const urban_nav_core::ImageView& left, const urban_nav_core::StereoCamera& camera);
 

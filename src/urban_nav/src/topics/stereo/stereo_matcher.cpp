@@ -28,7 +28,8 @@ namespace {
 
 constexpr int kPanelWidth = 400;  // px
 
-/// base_link's z axis in the left optical frame; nullopt if the camera is upright, as one of unknown mounting is.
+/// Returns the z axis of base_link in the left optical frame; nullopt for an upright camera, assumed if the mounting is
+/// unknown.
 std::optional<Eigen::Vector3d> expectedUp(const Pose& T_base_camera) {
   const Eigen::Vector3d up = T_base_camera.R().transpose() * Eigen::Vector3d::UnitZ();
   if ((up + Eigen::Vector3d::UnitY()).norm() < 1e-6) return std::nullopt;
@@ -66,7 +67,7 @@ NearPoints nearPoints(const NearScene& scene, const urban_nav_core::ImageView& l
   return row;
 }
 
-/// Left image, disparities, deviations and ground in four panels.
+/// Draws left image, disparities, deviations and ground in four panels.
 StereoPicture drawPanels(const NearScene& scene, const urban_nav_core::ImageView& left, const StereoCamera& camera) {
   const cv::Mat grey(left.height, left.width, CV_8UC1, const_cast<std::uint8_t*>(left.data),
                      static_cast<std::size_t>(left.stride));
@@ -91,7 +92,7 @@ StereoPicture drawPanels(const NearScene& scene, const urban_nav_core::ImageView
 }
 
 std::string describeKeyframe(const StereoKeyframe& keyframe) {
-  std::string text = urban_nav_core::formatNumber(100.0 * keyframe.answered, 3) + " % of the pixels answered, " +
+  std::string text = urban_nav_core::formatNumber(100.0 * keyframe.answered, 3) + " % of the pixels matched, " +
                      urban_nav_core::formatNumber(100.0 * keyframe.near_share, 3) + " % of these near; ";
   if (keyframe.hasGround())
     text += "camera " + urban_nav_core::formatNumber(keyframe.height, 3) + " m above the ground";

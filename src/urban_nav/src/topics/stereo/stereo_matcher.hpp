@@ -16,12 +16,12 @@
 
 namespace urban_nav {
 
-/// What dense stereo made of a keyframe: a row of the run, two of the store, and a picture.
+/// Output of dense stereo for a keyframe: a row of the run, two of the store, and a picture.
 struct StereoOutput {
   StereoKeyframe keyframe;
   urban_nav_store::GroundView ground;
-  std::optional<urban_nav_store::NearPoints> points;  ///< of sessions with planar lasers, whose map they fill
-  std::optional<urban_nav_store::DepthView> view;     ///< of others, whose map they make
+  std::optional<urban_nav_store::NearPoints> points;  ///< for sessions with planar lasers, to fill their map
+  std::optional<urban_nav_store::DepthView> view;     ///< for other sessions, to build their map
   std::optional<StereoPicture> picture;
 };
 

@@ -10,13 +10,13 @@
 
 namespace urban_nav {
 
-/// Selects the keyframes of dense stereo: by distance, by angle and by time, as its parameters state.
+/// Selects the keyframes of dense stereo by distance, angle and time, according to its parameters.
 class StereoKeyframeSelector {
  public:
   explicit StereoKeyframeSelector(const dense_stereo::Parameters& parameters);
   /// Continues after a keyframe.
   void keep(urban_nav_core::StampNs stamp, const urban_nav_core::Pose& T_odom_base);
-  /// Returns true if the frame is a keyframe. To be called for each frame in order of time.
+  /// Returns true if the frame is a keyframe. Call for each frame in order of time.
   bool select(urban_nav_core::StampNs stamp, const urban_nav_core::Pose& T_odom_base);
 
  private:

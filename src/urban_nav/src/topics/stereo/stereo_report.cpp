@@ -20,7 +20,7 @@ double shareOfGround(const StereoSummary& summary) {
   return summary.pairs == 0 ? 0.0 : static_cast<double>(summary.ground_found) / static_cast<double>(summary.pairs);
 }
 
-/// Returns one warning for each kind of fault, with the words of its first pair.
+/// Returns one warning for each kind of fault, with the sentence of its first pair.
 std::vector<std::string> describeFaults(const std::vector<const StereoRun*>& runs, std::int64_t pairs) {
   std::map<std::string, std::pair<std::int64_t, std::string>> faults;
   for (const StereoRun* run : runs)
@@ -36,7 +36,7 @@ std::vector<std::string> describeFaults(const std::vector<const StereoRun*>& run
   return warnings;
 }
 
-/// A plot over time with one point for each keyframe.
+/// Plots a value of each keyframe over time.
 template <typename Value>
 std::string plotKeyframes(const StereoRun& run, const std::string& label, bool from_zero, const Value& value) {
   Plot plot;
@@ -84,19 +84,18 @@ StereoSummary summariseStereo(const std::vector<const StereoRun*>& runs) {
 
 std::string stereoSentence(const StereoSummary& summary) {
   return "stereo: " + std::to_string(summary.pairs) + " pairs, " +
-         urban_nav_core::formatNumber(100.0 * summary.valid_share, 3) + " % of the pixels answered, ground in " +
+         urban_nav_core::formatNumber(100.0 * summary.valid_share, 3) + " % of the pixels matched, ground in " +
          urban_nav_core::formatNumber(100.0 * shareOfGround(summary), 3) + " %; " +
          urban_nav_core::formatNumber(summary.ms_median, 3) + " ms each";
 }
 
 std::vector<Verdict> stereoVerdicts(const StereoSummary& summary) {
   const bool is_dense = summary.valid_share > 0.5, has_ground = shareOfGround(summary) > 0.5;
-  return {
-      {is_dense && has_ground ? Grade::Good : Grade::Fair,
-       "Dense stereo answered " + urban_nav_core::formatNumber(100.0 * summary.valid_share, 3) + " % of the pixels.",
-       "Of " + std::to_string(summary.pairs) + " pairs " + std::to_string(summary.ground_found) +
-           " have a ground plane; " + urban_nav_core::formatNumber(100.0 * summary.near_share, 3) +
-           " % of the answered pixels are near enough for ground, obstacles and map."}};
+  return {{is_dense && has_ground ? Grade::Good : Grade::Fair,
+           "Dense stereo matched " + urban_nav_core::formatNumber(100.0 * summary.valid_share, 3) + " % of the pixels.",
+           "Of " + std::to_string(summary.pairs) + " pairs " + std::to_string(summary.ground_found) +
+               " have a ground plane; " + urban_nav_core::formatNumber(100.0 * summary.near_share, 3) +
+               " % of the matched pixels are near enough for ground, obstacles and map."}};
 }
 
 Section stereoSection(const StereoRun& run, std::size_t session, bool is_numbered) {
@@ -105,20 +104,20 @@ Section stereoSection(const StereoRun& run, std::size_t session, bool is_numbere
                   "Dense stereo" + (is_numbered ? " (session " + number + ")" : ""),
                   "Depth of each pixel at keyframes. In the pictures: the left image; disparities from far, blue, to "
                   "near, red; their standard deviations from 0, dark, to 0.5 px, bright; the ground in green and "
-                  "obstacles in red. Black pixels have no answer.",
+                  "obstacles in red. Black pixels are not matched.",
                   {},
                   {},
                   {}};
   if (run.keyframes.empty()) return section;
   section.figures.push_back(
-      {"Answered pixels",
+      {"Matched pixels",
        plotKeyframes(run, "share (%)", true, [](const StereoKeyframe& keyframe) { return 100.0 * keyframe.answered; }),
        "Of each keyframe.", false});
   section.figures.push_back(
       {"Height of the camera above the ground",
        plotKeyframes(run, "height (m)", false,
                      [](const StereoKeyframe& keyframe) { return orGap(keyframe, keyframe.height); }),
-       "Where there is a ground plane.", false});
+       "Of keyframes with a ground plane.", false});
   section.figures.push_back(
       {"Tilt of the ground",
        plotKeyframes(run, "tilt (deg)", true,

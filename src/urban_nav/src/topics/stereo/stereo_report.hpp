@@ -26,7 +26,7 @@ StereoSummary summariseStereo(const std::vector<const StereoRun*>& runs);
 /// Returns the summary as a line for the console.
 std::string stereoSentence(const StereoSummary& summary);
 std::vector<Verdict> stereoVerdicts(const StereoSummary& summary);
-/// Returns the section on a session: answered pixels and ground over time, and keyframes in pictures.
+/// Returns the section on a session: matched pixels and ground over time, and pictures of keyframes.
 Section stereoSection(const StereoRun& run, std::size_t session, bool is_numbered);
 /// Returns the object "dense_stereo" of summary.json.
 Json toJson(const StereoSummary& summary);

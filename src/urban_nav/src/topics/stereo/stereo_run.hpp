@@ -15,11 +15,11 @@ namespace urban_nav {
 struct StereoKeyframe {
   urban_nav_core::StampNs stamp = 0;
   double ms = 0.0;
-  std::string reason;       ///< "none", or what is wrong with the pair
-  std::string sentence;     ///< for the user; empty if nothing is wrong
-  double answered = 0.0;    ///< share of the pixels
+  std::string reason;       ///< "none", or the defect of the pair
+  std::string sentence;     ///< for the user; empty without a defect
+  double answered = 0.0;    ///< share of matched pixels
   double near_share = 0.0;  ///< of these, share within the range limit
-  std::string ground;       ///< "found", or why there is no plane
+  std::string ground;       ///< "found", or the reason why there is no plane
   double tilt = 0.0;        ///< rad, between the ground's normal and base_link's z axis
   double height = 0.0;      ///< m, of the camera above the ground
   std::int64_t points = 0, obstacles = 0;

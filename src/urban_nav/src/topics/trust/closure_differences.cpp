@@ -21,16 +21,16 @@ using urban_nav_trust::ClosureDifference;
 
 namespace {
 
-constexpr double kFreeInformation = 1e-9;  // relative to that of the best direction: none
+constexpr double kFreeInformation = 1e-9;  // relative to the best direction; below it there is no information
 
 /// Errors of the constants of the rig along a path.
 struct SharedErrors {
-  Vector6d unknown = Vector6d::Zero();  ///< per unit of what is not known of the constant
-  Vector6d unused = Vector6d::Zero();   ///< because steps were made with another value than is known now
+  Vector6d unknown = Vector6d::Zero();  ///< per unit error of the constant
+  Vector6d unused = Vector6d::Zero();   ///< since steps used another value than the final estimate
 };
 
-/// Returns the covariance of T_a_b by errors of constants that all steps between the two stamps share. A constant is
-/// known as the newest step of the session states it.
+/// Returns the covariance of T_a_b due to errors of the constants common to all steps between the two stamps. The
+/// uncertainty of a constant is that of the newest step of the session.
 Matrix6d constantCovariance(const SessionOdometry& run, StampNs a, StampNs b) {
   std::map<std::string, ConsideredConstant> known;
   for (const ConsideredConstant& constant : run.settled.back().from_previous.constants) known[constant.name] = constant;

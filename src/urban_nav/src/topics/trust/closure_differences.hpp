@@ -10,8 +10,8 @@
 
 namespace urban_nav {
 
-/// Returns the closures within a session that the pose graph has accepted, each with the motion that the odometry of
-/// the session states between its poses, constants of the rig included. `assessments`: one for each closure.
+/// Returns the accepted closures within a session, each with the motion between its poses by odometry, including the
+/// constants of the rig. `assessments`: one for each closure.
 std::vector<urban_nav_trust::ClosureDifference> closureDifferences(
     const std::string& session, const SessionOdometry& odometry,
     const std::vector<urban_nav_core::MetricClosure>& closures, const std::vector<ClosureAssessment>& assessments);

@@ -32,12 +32,13 @@ constexpr std::size_t kPointsCompared = 400;               // points of a keyfra
 constexpr double kSurfaceTravel = 6.0;                     // m before and after a keyframe
 constexpr float kSurfaceVoxel = 0.25F;                     // m
 constexpr float kLeastPlanarity = 0.9F;
-constexpr float kSurfaceReach = 0.3F;               // m along the normal
-constexpr float kMostSigma = kSurfaceReach / 3.0F;  // m, of a stereo point along the normal: the reach cuts nothing off
-constexpr float kOnSurface = 0.15F;                 // m
-constexpr float kUprightNormal = 0.5F;              // |normal z| below which a surface is a wall
+constexpr float kSurfaceReach = 0.3F;  // m along the normal
+constexpr float kMostSigma =
+    kSurfaceReach / 3.0F;               // m, of a stereo point along the normal; the reach truncates nothing
+constexpr float kOnSurface = 0.15F;     // m
+constexpr float kUprightNormal = 0.5F;  // |normal z| below which a surface is a wall
 
-/// Surfaces by the cubes that hold them.
+/// Surfaces by grid cubes.
 class SurfaceGrid {
  public:
   explicit SurfaceGrid(const Surfels& surfels) {
@@ -92,14 +93,14 @@ struct StereoPoint {
   float sigma = 0.0F;
 };
 
-/// Points that stereo saw at a keyframe.
+/// Stereo points of a keyframe.
 struct StereoView {
   StampNs stamp = 0;
   Eigen::Vector3d camera = Eigen::Vector3d::Zero();  ///< in base_link, m
   std::vector<StereoPoint> points;
 };
 
-/// Surfaces by the lasers as stated, and with left and right exchanged, if there are both.
+/// Laser surfaces with the stated mounting, and with left and right exchanged if there are both.
 struct LaserSurfaces {
   SurfaceGrid stated;
   std::optional<SurfaceGrid> exchanged;
@@ -143,7 +144,7 @@ std::vector<StampNs> spread(const std::vector<StampNs>& stamps, std::size_t most
   return some;
 }
 
-/// Returns views of dense stereo: near, and of robots with a short range mostly of the ground.
+/// Returns views of dense stereo: near points, with a short range mostly of the ground.
 std::vector<StereoView> denseViews(urban_nav_store::Store& store, const urban_nav_store::SessionId& session) {
   urban_nav_store::TableStore<NearPoints> rows(store);
   std::vector<StampNs> stamps;
@@ -162,7 +163,7 @@ std::vector<StereoView> denseViews(urban_nav_store::Store& store, const urban_na
   return views;
 }
 
-/// Returns views of corners, which are matched at any range: those of the walls along the path.
+/// Returns views of corners, which are matched at any range, as on walls along the path.
 std::vector<StereoView> cornerViews(urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
                                     const SessionOdometry& odometry) {
   using urban_nav_registration::kKeyframeCamera;

@@ -9,9 +9,9 @@
 
 namespace urban_nav {
 
-/// Returns stereo points of some keyframes of a session near the surfaces that its lasers measured within 6 m of
-/// travel, placed along odometry: those of dense stereo, and corners of the keyframes for loop closures, which alone
-/// reach the walls along the path. Empty without either or without scans. Throws DataError if the store is damaged.
+/// Returns stereo points of some keyframes of a session near laser surfaces measured within 6 m of travel, placed along
+/// odometry: points of dense stereo, and corners of the loop closure keyframes, the only points that reach the walls
+/// along the path. Empty without points or scans. Throws DataError if the store is damaged.
 std::vector<urban_nav_trust::KeyframeMatches> matchDepths(urban_nav_store::Store& store,
                                                           const urban_nav_store::SessionId& session,
                                                           const SessionOdometry& odometry);

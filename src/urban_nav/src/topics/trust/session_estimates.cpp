@@ -28,13 +28,13 @@ void compareGravity(urban_nav_store::Store& store, const urban_nav_store::Sessio
   if (path.empty()) return testGravity({}, {}, {}, "there is no pose", results);
   const auto grounds = pose_graph::readGround(store, session);
   if (odometry.forces.empty() || grounds.empty())
-    return testGravity({}, {}, {},
-                       grounds.empty() ? "dense stereo has seen no ground" : "no accelerometer was recorded", results);
+    return testGravity(
+        {}, {}, {}, grounds.empty() ? "dense stereo found no ground plane" : "no accelerometer was recorded", results);
   const urban_nav_core::Pose& first = path[0].pose;
   testGravity(toUp(pose_graph::estimateLevel(path, grounds, first)),
               toUp(pose_graph::estimateLevel(path, odometry.forces, first)),
               {path[0].stamp, path[path.size() - 1].stamp},
-              "too little of the ground, or of the accelerometer, to know the upward direction", results);
+              "too few measurements of the ground or the accelerometer to estimate the vertical", results);
 }
 
 std::optional<LidarComparison> lidarComparison(const SessionOdometry& odometry) {

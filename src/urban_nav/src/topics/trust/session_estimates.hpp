@@ -9,8 +9,8 @@
 
 namespace urban_nav {
 
-/// Compares the upward direction by the ground that dense stereo has seen with that by the accelerometer, along the
-/// odometry of a session, and adds the test or why it is absent. Throws DataError if the store is damaged.
+/// Compares the vertical by the ground planes of dense stereo with that by the accelerometer, along the odometry of a
+/// session, and adds the test or the reason for its absence. Throws DataError if the store is damaged.
 void compareGravity(urban_nav_store::Store& store, const urban_nav_store::SessionId& session,
                     const SessionOdometry& odometry, urban_nav_trust::TestResults& results);
 

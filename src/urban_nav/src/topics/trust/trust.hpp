@@ -7,8 +7,8 @@
 
 namespace urban_nav {
 
-/// Returns the stage that compares independent measurements (urban_nav_trust) and states for each frame and for the map
-/// whether the robot was where the map shows, with probabilities. It is the last one of `map`.
+/// Returns the stage that compares independent measurements (urban_nav_trust) and estimates, for each frame and for the
+/// map, the probability that positions are correct. It is the last stage of `map`.
 std::unique_ptr<Stage> makeTrustStage();
 
 }  // namespace urban_nav

@@ -14,10 +14,10 @@ using urban_nav_trust::TrustState;
 
 namespace {
 
-constexpr const char* kByCovariance = "By the covariance of each pose, as far as the tests confirm it,";
-constexpr double kMostStated = 0.999;  // what is beyond rests on tails that no data show
+constexpr const char* kByCovariance = "From the covariance of each pose and the results of the tests,";
+constexpr double kMostStated = 0.999;  // higher probabilities depend on unobserved tails
 
-/// Returns a reason as a sentence of its own.
+/// Returns a reason as a sentence.
 std::string asSentence(std::string reason) {
   if (!reason.empty() && reason.front() >= 'a' && reason.front() <= 'z')
     reason.front() = static_cast<char>(reason.front() - 'a' + 'A');
@@ -26,7 +26,7 @@ std::string asSentence(std::string reason) {
 
 /// Returns the sentence on the whole map, which begins with `by`.
 std::string probabilitySentence(const TrustRun& run, const std::string& by) {
-  std::string text = by + " the probability that a position is where the map shows is ";
+  std::string text = by + " the probability that a position of the map is right is ";
   for (std::size_t k = 0; k < urban_nav_trust::kRadii.size(); ++k) {
     if (k > 0) text += k + 1 == urban_nav_trust::kRadii.size() ? " and " : ", ";
     const double probability = run.map.probabilities[k];
@@ -51,8 +51,9 @@ Figure probabilityFigure(const TrustRun& run) {
           {urban_nav_core::secondsBetween(run.frames.front().stamp, frame.stamp), frame.probabilities[k]});
     plot.series.push_back(std::move(series));
   }
-  return {"Probability that the robot is where the map shows", renderSvg(plot),
-          "From the covariance of each pose and what the tests show of its scale, widened where a test fails.", true};
+  return {"Probability that the position is right", renderSvg(plot),
+          "From the covariance of each pose, scaled by the results of the tests and enlarged where a test fails.",
+          true};
 }
 
 }  // namespace
@@ -67,7 +68,7 @@ Verdict trustVerdict(const TrustRun& run, const urban_nav_trust::Parameters& par
       return {Grade::Good, "The map can be trusted.",
               tests + " consistency tests passed. " + probabilitySentence(run, kByCovariance)};
     case TrustState::New:
-      return {Grade::Fair, "The sessions are maps of their own.",
+      return {Grade::Fair, "The sessions are separate maps.",
               run.map.reason + ". " + probabilitySentence(run, kByCovariance)};
     case TrustState::Lost: return {Grade::Bad, "The path is lost.", run.map.reason + "."};
     case TrustState::Unsure: break;
@@ -75,9 +76,9 @@ Verdict trustVerdict(const TrustRun& run, const urban_nav_trust::Parameters& par
   if (failed > 0)
     return {Grade::Bad, "Measurements contradict each other: do not trust the map.",
             std::to_string(failed) + " of " + tests + " consistency tests failed. " + run.map.reason};
-  return {Grade::Fair, "Too little confirms the map.",
+  return {Grade::Fair, "The map is not confirmed by independent measurements.",
           asSentence(run.map.reason) + " " +
-              probabilitySentence(run, "By its covariance, which may be too small by a factor that nothing measured,")};
+              probabilitySentence(run, "From its covariance, whose scale no test confirms,")};
 }
 
 Section trustSection(const TrustRun& run, const urban_nav_trust::Parameters& parameters) {
@@ -101,7 +102,7 @@ Section trustSection(const TrustRun& run, const urban_nav_trust::Parameters& par
                           has_failed ? test.remedy : ""});
   }
   if (!tests.rows.empty()) section.tables.push_back(std::move(tests));
-  PageTable absent{"Not compared", {"test", "why"}, {}, ""};
+  PageTable absent{"Not compared", {"test", "reason"}, {}, ""};
   for (const urban_nav_trust::AbsentMeasurement& missing : run.results.absent)
     absent.rows.push_back({missing.name, missing.reason});
   if (!absent.rows.empty()) section.tables.push_back(std::move(absent));

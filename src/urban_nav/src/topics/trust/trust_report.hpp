@@ -6,9 +6,9 @@
 
 namespace urban_nav {
 
-/// Returns the first line of the report: whether the map can be trusted.
+/// Returns the first line of the report: the assessment of the map.
 Verdict trustVerdict(const TrustRun& run, const urban_nav_trust::Parameters& parameters);
-/// Returns the section with the tests, what was not there to compare, and the probabilities over time.
+/// Returns the section with the tests, the missing comparisons, and the probabilities over time.
 Section trustSection(const TrustRun& run, const urban_nav_trust::Parameters& parameters);
 
 }  // namespace urban_nav

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kUnknownVariance = 1e6;  // m^2, of a pose without covariance
 
-/// Stores the tests of a session in place of those of an earlier run.
+/// Stores the tests of a session, replacing those of an earlier run.
 void storeTests(const TestResults& results, const urban_nav_trust::Parameters& parameters,
                 const urban_nav_store::SessionId& session, urban_nav_store::Store& store) {
   urban_nav_store::TableStore<urban_nav_store::StoredTest> rows(store);
@@ -38,7 +38,7 @@ void storeTests(const TestResults& results, const urban_nav_trust::Parameters& p
               test.interval.to, test.statistic, test.degrees_of_freedom, test.p_value, test.sentence, test.remedy});
 }
 
-/// Returns the tests of a session that an earlier run has made.
+/// Returns the stored tests of a session.
 TestResults readTests(const urban_nav_store::SessionId& session, urban_nav_store::Store& store) {
   TestResults results;
   urban_nav_store::TableStore<urban_nav_store::StoredTest>(store).forEach(
@@ -54,7 +54,7 @@ TestResults readTests(const urban_nav_store::SessionId& session, urban_nav_store
   return results;
 }
 
-/// Runs the tests of a running robot on a session: steps come when they are final, as they do there.
+/// Runs the online tests on a session: steps are added when they are final, as on a running robot.
 TestResults monitorSession(const SessionOdometry& run, const urban_nav_trust::Parameters& parameters) {
   urban_nav_trust::TrustMonitor monitor(parameters);
   std::size_t next = 1;
@@ -110,7 +110,7 @@ std::vector<FrameEvidence> listFrames(const SessionOdometry& run, const SessionT
   return frames;
 }
 
-/// Lists what the sessions of this run do not have: measurements that no test can use then.
+/// Lists the measurements that are missing in the sessions of this run.
 void addMissingInputs(const MapContext& context, TestResults& all) {
   const auto has = [&](const std::string& role) {
     return std::any_of(context.sessions.begin(), context.sessions.end(), [&](const MapSession& session) {

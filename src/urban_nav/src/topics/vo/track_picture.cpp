@@ -53,7 +53,7 @@ VoPicture drawTracks(const ImageView& image, const std::vector<std::vector<Featu
   }
   if (!features.empty()) {
     for (const Feature& feature : features.back()) {
-      if (!(feature.pixel.x() > 0.0)) continue;  // seen in the right image alone
+      if (!(feature.pixel.x() > 0.0)) continue;  // only in the right image
       const double disparity = feature.pixel.z() > 0.0 ? feature.pixel.x() - feature.pixel.z() : 1.0;
       const double nearness = std::log2(std::max(disparity, 1.0)) / 6.0;  // 1 px ... 64 px
       const cv::Scalar colour = feature.trusted ? toColour(nearness) : cv::Scalar(150, 150, 150);

@@ -8,9 +8,8 @@
 
 namespace urban_nav {
 
-/// The left image with its features (colour: disparity, so near is warm and far is cold; grey: not trusted) and the way
-/// each came over the frames before. `features`: the newest frame last. Frame, stamp and caption are left to the
-/// caller.
+/// Draws the left image with its features (colour: disparity, red is near, blue is far; grey: rejected) and their
+/// tracks over the previous frames. `features`: the newest frame last. Leaves frame, stamp and caption to the caller.
 VoPicture drawTracks(const urban_nav_core::ImageView& image, const std::vector<std::vector<swf_vo::Feature>>& features);
 
 }  // namespace urban_nav

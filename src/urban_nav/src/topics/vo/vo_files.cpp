@@ -14,7 +14,7 @@ using urban_nav_core::Pose;
 
 namespace {
 
-constexpr int kMinObservations = 3;  // frames: with fewer a landmark is as likely a wrong match
+constexpr int kMinObservations = 3;  // frames; landmarks with fewer are often wrong matches
 
 std::array<double, 7> poseValues(const Pose& pose) {
   return {pose.t().x(), pose.t().y(), pose.t().z(), pose.q().x(), pose.q().y(), pose.q().z(), pose.q().w()};

@@ -25,7 +25,7 @@ using urban_nav_core::ImageView;
 namespace {
 
 constexpr std::size_t kPictures = 8;
-constexpr std::size_t kTail = 6;  // frames that the track of a feature reaches back
+constexpr std::size_t kTail = 6;  // frames of the drawn track of a feature
 
 constexpr const char* kStateName = "visual odometry of a session";
 constexpr std::uint32_t kStateVersion = 1;
@@ -35,7 +35,7 @@ std::uint8_t greyAt(const ImageView& image, const Eigen::Vector3d& pixel) {
   return image.empty() || u < 0 || v < 0 || u >= image.width || v >= image.height ? std::uint8_t{0} : image.at(u, v);
 }
 
-/// Describes the run by its input, which is not part of any state.
+/// Sets the description of the input, which is not part of any state.
 VoRun& describeInput(VoRun& run, const urban_nav_input::SourceInfo& info) {
   run.input = info.name;
   run.camera = info.camera;
@@ -74,8 +74,8 @@ SmoothedFrame toSmoothedFrame(const swf_vo::Settled& settled) {
   return {settled.frame, settled.stamp, settled.T_odom_base, settled.from_previous, settled.status};
 }
 
-/// Returns the rotation after which `odom` has z opposite to gravity, and the first pose heading zero; nullopt where
-/// the specific forces of the session do not show it.
+/// Returns the rotation after which `odom` has z opposite to gravity and the first pose has heading zero; nullopt if
+/// the specific forces of the session do not determine it.
 std::optional<Eigen::Quaterniond> findOdometryLevel(const VoRun& run) {
   if (run.settled.empty() || run.forces.empty()) return std::nullopt;
   const pose_graph::Level level = pose_graph::estimateLevel(smoothedTrajectory(run), run.forces);
@@ -86,8 +86,8 @@ std::optional<Eigen::Quaterniond> findOdometryLevel(const VoRun& run) {
 
 }  // namespace
 
-/// Keeps a few pictures evenly spread over a session whose length is not known: each time there are too many, the step
-/// between them doubles.
+/// Keeps a few pictures evenly spread over a session of unknown length: doubles the step between them when there are
+/// too many.
 class VoRecorder::PictureKeeper {
  public:
   void add(const OdometryFrame& frame, const swf_vo::Statistics& statistics, const ImageView& image,
@@ -194,7 +194,7 @@ bool VoRecorder::finish(const PassEnd& end, bool is_levelled) {
   std::vector<urban_nav_core::StampNs> stamps;
   for (const SmoothedFrame& settled : run_.settled) stamps.push_back(settled.stamp);
   run_.forces = pose_graph::forcesAt(stamps, end.forces);
-  // An IMU whose gyroscope is wrong has the same axes, units and stamps for its accelerometer.
+  // If the gyroscope is wrong, so may be axes, units and stamps of the accelerometer.
   const std::optional<Eigen::Quaterniond> q_level_odom =
       is_levelled && !run_.motion.gyroscope_left_out ? findOdometryLevel(run_) : std::nullopt;
   if (!q_level_odom) return false;

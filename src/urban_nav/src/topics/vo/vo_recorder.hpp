@@ -13,25 +13,25 @@
 
 namespace urban_nav {
 
-/// Feeds SwfVo and records what files and report need of its output. Not thread-safe.
+/// Feeds SwfVo and records its output for files and report. Not thread-safe.
 class VoRecorder {
  public:
   /// `run`: filled while frames are processed; must outlive the recorder.
   VoRecorder(const swf_vo::Parameters& parameters, const urban_nav_input::SourceInfo& info, VoRun& run);
-  /// Continues bit-exactly where another recorder was when `state` was taken. Throws UserError if parameters or
-  /// calibration differ, DataError if the state is damaged.
+  /// Continues bit-exactly from the `state` of another recorder. Throws UserError if parameters or calibration differ,
+  /// DataError if the state is damaged.
   VoRecorder(const swf_vo::Parameters& parameters, const urban_nav_input::SourceInfo& info, VoRun& run,
              std::string_view state);
   ~VoRecorder();
 
-  /// Returns the frame that it has added to the run.
+  /// Processes an input. Returns the frame added to the run.
   const OdometryFrame& process(const urban_nav_input::SourceItem& input);
   /// Corrects the right image of the pair that was processed last by the turn of the right camera, if one was found.
   void correctRight(urban_nav_core::StereoPairWithMotion& frame);
-  /// Empties the window, and turns `odom` so that z is opposite to gravity if `is_levelled` and the input's specific
-  /// forces show it. Returns whether it was turned. No process() after it.
+  /// Empties the window; if `is_levelled` and specific forces determine gravity, rotates `odom` so that z is opposite
+  /// to gravity. Returns whether it was rotated. No process() may follow.
   bool finish(const PassEnd& end, bool is_levelled);
-  /// Returns the state of run and filter. Not after finish().
+  /// Returns the state of run and filter. Requires that finish() has not been called.
   std::string state() const;
 
  private:

@@ -42,7 +42,7 @@ const char* toColour(Health health) {
   return "plain";
 }
 
-/// Stretches of time in which the status was not OK.
+/// Returns the time intervals in which the status was not OK.
 std::vector<Span> troubles(const VoRun& run) {
   std::vector<Span> spans;
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
@@ -85,7 +85,7 @@ Figure pathFigure(const VoRun& run, int a, int b, const std::string& title, cons
   return {title, renderSvg(plot), "", false};
 }
 
-/// Standard deviations of three coordinates from `first` on, as the estimate states them.
+/// Plots the estimated standard deviations of three coordinates from index `first`.
 Figure doubtFigure(const VoRun& run, int first, const std::string& title, const std::string& y_label, double unit) {
   static const std::array<const char*, 6> names = {"x", "y", "z", "roll", "pitch", "heading"};
   static const std::array<const char*, 3> colours = {"a", "b", "c"};
@@ -103,7 +103,7 @@ Figure doubtFigure(const VoRun& run, int first, const std::string& title, const 
         line(names[static_cast<std::size_t>(first + i)], colours[static_cast<std::size_t>(i)], points));
   }
   return {title, renderSvg(plot),
-          "As the estimate itself says it, relative to the first pose. Shaded: the status was not OK.", false};
+          "Estimated, relative to the first pose. Shaded: the status was not OK.", false};
 }
 
 Figure featuresFigure(const VoRun& run) {
@@ -115,13 +115,13 @@ Figure featuresFigure(const VoRun& run) {
   plot.series.push_back(line("in the frame", "a", overTime(run, [](const swf_vo::Statistics& of) {
                                return static_cast<double>(of.features);
                              })));
-  plot.series.push_back(line("known from before and trusted", "c", overTime(run, [](const swf_vo::Statistics& of) {
+  plot.series.push_back(line("tracked and accepted", "c", overTime(run, [](const swf_vo::Statistics& of) {
                                return static_cast<double>(of.tracked);
                              })));
-  return {"Features", renderSvg(plot), "What the motion rests on. Shaded: the status was not OK.", false};
+  return {"Features", renderSvg(plot), "Features that determine the motion. Shaded: the status was not OK.", false};
 }
 
-/// Every frame's status as a stripe over time.
+/// Plots the status of each frame as a stripe over time.
 Figure statusFigure(const VoRun& run) {
   Plot plot;
   plot.x_label = "time (s)";
@@ -143,7 +143,7 @@ Figure statusFigure(const VoRun& run) {
   }
   return {
       "Status", renderSvg(plot),
-      "Degraded: less to go on than there should be. Lost: the pose goes on by prediction, and its covariance grows.",
+      "Degraded: too few features. Lost: the pose is predicted, and its covariance grows.",
       true};
 }
 
@@ -156,7 +156,7 @@ Figure reprojectionFigure(const VoRun& run) {
                                return of.tracked > 0 ? of.reprojection_px : kGap;
                              })));
   return {"Reprojection error", renderSvg(plot),
-          "How far landmarks are from where the estimate puts them in the left image.", false};
+          "Distance between measured and predicted positions of the landmarks in the left image.", false};
 }
 
 Figure offsetFigure(const VoRun& run) {
@@ -175,7 +175,7 @@ Figure offsetFigure(const VoRun& run) {
   }
   plot.series = {band, estimate};
   return {"Disparity offset", renderSvg(plot),
-          "A constant error of the disparity, left by the calibration. With this camera 0.1 px is " +
+          "Constant error of the disparity due to calibration. With this camera 0.1 px is " +
               urban_nav_core::formatNumber(100.0 * 0.1 * 10.0 / (run.camera.left.fx * run.camera.baseline), 2) +
               " % of a distance of 10 m.",
           false};
@@ -193,7 +193,7 @@ Figure timingFigure(const VoRun& run, const VoSummary& summary) {
   for (std::size_t i = 0; i < kBins; ++i)
     bars.points.push_back({(static_cast<double>(i) + 0.5) * bars.bar_width, counts[i]});
   Plot plot;
-  plot.x_label = "ms a frame (the last bar: and more)";
+  plot.x_label = "ms per frame (last bar: this or more)";
   plot.y_label = "frames";
   plot.y_from_zero = true;
   plot.series.push_back(bars);
@@ -209,23 +209,23 @@ std::vector<Section> voSections(const VoRun& run, bool with_path) {
   if (run.frames.empty()) return {};
   const VoSummary summary = summarise(run);
   Section path{
-      "path", with_path ? "The path" : "Its own doubt", "Settled poses of base_link, relative to the first.", {}, {},
+      "path", with_path ? "Path" : "Uncertainty", "Smoothed poses of base_link, relative to the first.", {}, {},
       {}};
   if (with_path)
     path.figures.push_back(pathFigure(run, 0, 1, "From above", "x, forward at the start (m)", "y, left (m)"));
   if (with_path)
     path.figures.push_back(pathFigure(run, 0, 2, "From the side", "x, forward at the start (m)", "z, up (m)"));
   path.figures.push_back(
-      doubtFigure(run, 0, "How far the position is to be trusted", "one standard deviation (m)", 1.0));
+      doubtFigure(run, 0, "Uncertainty of the position", "one standard deviation (m)", 1.0));
   path.figures.push_back(
-      doubtFigure(run, 3, "How far the direction is to be trusted", "one standard deviation (deg)", 180.0 / M_PI));
-  Section work{"work", "How it worked", "", {}, {}, {}};
+      doubtFigure(run, 3, "Uncertainty of the orientation", "one standard deviation (deg)", 180.0 / M_PI));
+  Section work{"work", "Tracking", "", {}, {}, {}};
   work.figures = {statusFigure(run), featuresFigure(run), reprojectionFigure(run), offsetFigure(run),
                   timingFigure(run, summary)};
   Section views{"views",
-                "What it saw",
-                "Left images; the line at a feature is its track over the frames before. Red is near, blue is "
-                "far, grey is not trusted, a ring is new.",
+                "Images",
+                "Left images; the line at a feature is its track over the previous frames. Red is near, blue is "
+                "far, grey is rejected, a ring is new.",
                 {},
                 {},
                 {}};
@@ -252,9 +252,9 @@ std::vector<Verdict> voVerdicts(const VoSummary& summary) {
     const bool is_long = static_cast<double>(lost) > kBriefLoss * static_cast<double>(all);
     verdicts.push_back(
         {is_long ? Grade::Bad : Grade::Fair, is_long ? "Tracking was lost." : "Tracking was lost for a moment.",
-         percent(lost) + " of the frames rest on prediction alone; their covariance says so." + reasons + "."});
+         percent(lost) + " of the frames are predicted only; their covariance grows." + reasons + "."});
   } else if (ok < all) {
-    verdicts.push_back({Grade::Fair, "Tracking held, with less to go on at times.",
+    verdicts.push_back({Grade::Fair, "Tracking held, with few features at times.",
                         percent(all - ok) + " of the frames are not OK." + reasons + "."});
   } else {
     verdicts.push_back({Grade::Good, "Tracking held throughout.",

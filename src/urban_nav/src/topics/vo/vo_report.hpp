@@ -9,11 +9,11 @@
 
 namespace urban_nav {
 
-/// What visual odometry has to show of one session: path, trust, features, timing, frames with tracks. `with_path`:
-/// false where the path is shown against the truth already.
+/// Returns the sections on visual odometry of a session: path, uncertainty, features, timing, frames with tracks.
+/// `with_path`: false if the path is already shown against the truth.
 std::vector<Section> voSections(const VoRun& run, bool with_path);
 
-/// What it says in plain words.
+/// Returns the verdicts on visual odometry.
 std::vector<Verdict> voVerdicts(const VoSummary& summary);
 
 }  // namespace urban_nav

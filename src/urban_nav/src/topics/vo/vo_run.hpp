@@ -28,7 +28,7 @@ struct VoPicture {
 
 struct VoLandmark {
   swf_vo::Landmark landmark;
-  std::uint8_t grey = 0;  ///< of the pixel of its last observation
+  std::uint8_t grey = 0;  ///< of its pixel in the last observation
   int seen = 0;           ///< frames
 };
 

@@ -20,7 +20,7 @@ constexpr std::uint32_t kVoRunVersion = 8;
 /// Version 2 was not sealed: its number in four bytes, then the content.
 constexpr std::string_view kVoRunHead2("\2\0\0\0", 4);
 
-/// A frame as states hold it.
+/// A frame in a stored state.
 struct StoredRow {
   OdometryFrame frame;
   VoFigures figures;
@@ -31,7 +31,7 @@ void archive(Archive& archive, StoredRow& row) {
           row.frame.T_odom_base, row.figures.process_ms);
 }
 
-/// A run in the members that states hold.
+/// Stored members of a run.
 struct StoredRun {
   std::vector<StoredRow> rows;
   std::vector<swf_vo::Settled> settled;
@@ -128,11 +128,11 @@ void members(Archive& archive, std::uint32_t version, VoRun& run, StoredRun& sto
   if (version > 6) archive(stored.compared);
   if (version > 7) archive(stored.right_turns);
   archive.require(stored.constants.empty() || stored.constants.size() == stored.settled.size(),
-                  "constants of the rig are not those of the steps");
+                  "the numbers of rig constants and steps differ");
   archive.require(stored.compared.empty() || stored.compared.size() == stored.rows.size(),
-                  "comparisons are not those of the frames");
+                  "the numbers of comparisons and frames differ");
   archive.require(stored.right_turns.empty() || stored.right_turns.size() == stored.rows.size(),
-                  "turns of the right camera are not those of the frames");
+                  "the numbers of turns of the right camera and frames differ");
 }
 
 VoRun readVoRun(std::string_view bytes) {

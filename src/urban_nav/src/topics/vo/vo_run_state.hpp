@@ -17,8 +17,8 @@ namespace urban_nav {
 void archive(urban_nav_core::Archive& archive, VoPicture& picture);
 void archive(urban_nav_core::Archive& archive, VoLandmark& landmark);
 
-/// Returns a finished VoRun as the bytes of a stored state, exact to the last bit. Leaves out the camera and the name
-/// of the input, which the input supplies again.
+/// Returns a finished VoRun as the bytes of a stored state, exact to the last bit. Without the camera and the name
+/// of the input, which are restored from the input.
 std::string packVoRun(VoRun run);
 /// Inverse of packVoRun, for the bytes of version 2 too. Returns nullopt for damaged bytes and for those of other
 /// versions.

@@ -83,7 +83,7 @@ class VoPass final : public SessionPass {
   std::size_t faults_reported_;
 };
 
-/// Returns the most frequent problem of the run, in the words of the first frame that had it; empty if none had one.
+/// Returns the most frequent problem of the run, with the sentence of its first frame; empty without one.
 std::string mostFrequentProblem(const std::vector<const VoRun*>& runs, const VoSummary& summary) {
   if (summary.reason_counts.empty()) return {};
   const auto most = std::max_element(summary.reason_counts.begin(), summary.reason_counts.end(),
@@ -172,7 +172,7 @@ class VoStage final : public Stage {
     return std::all_of(context.sessions.begin(), context.sessions.end(),
                        [](const MapSession& session) { return session.odometry->source == OdometrySource::Laser; });
   }
-  /// Makes `run` the odometry of a session.
+  /// Sets `run` as the odometry of a session.
   VoRun& restart(MapContext& context, std::size_t session, VoRun run) {
     runs_.resize(context.sessions.size());
     runs_[session] = std::make_shared<VoRun>(std::move(run));

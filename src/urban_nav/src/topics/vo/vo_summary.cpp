@@ -16,15 +16,15 @@ namespace {
 
 constexpr std::size_t kWarningsShown = 20;
 constexpr double kFarOutside = 3.0;    // standard deviations of a prior
-constexpr double kRowsDisagree = 1.0;  // px, beyond which a pair is not rectified, although its offset is followed
+constexpr double kRowsDisagree = 1.0;  // px, beyond which a pair is not rectified, although its offset is compensated
 constexpr double kRigDegrees = 180.0 / M_PI;
 
-/// Returns whether an estimate contradicts what its prior allows for; never where it is not estimated.
+/// Returns whether an estimate contradicts its prior; false if it is not estimated.
 bool isFarOutside(double estimate, double sigma, double prior) {
   return sigma > 0.0 && prior > 0.0 && std::abs(estimate) > kFarOutside * (prior + sigma);
 }
 
-/// Appends how many frames were LOST, by reason, in the words of the first that had it.
+/// Appends the number of LOST frames by reason, with the sentence of the first one.
 void addLosses(const VoRun& run, std::vector<std::string>& warnings) {
   struct Loss {
     std::int64_t count = 0;
@@ -53,25 +53,25 @@ void addRig(const VoRun& run, const swf_vo::Parameters& parameters, std::vector<
     warnings.push_back(run.input + ": calibration: disparities are off by " + urban_nav_core::formatNumber(offset, 2) +
                        " +- " + urban_nav_core::formatNumber(sigma, 1) + " px, where swf_vo.disparity_offset = " +
                        urban_nav_core::formatNumber(parameters.disparity_offset, 3) +
-                       " px is allowed for: calibrate the pair anew, or check the synchronisation of its shutters");
+                       " px is assumed: calibrate the pair again, or check the synchronisation of its shutters");
   const double rows = figures.row_offset_px;
   if (std::abs(rows) > kRowsDisagree)
-    warnings.push_back(run.input + ": not_rectified: the right image shows everything " +
+    warnings.push_back(run.input + ": not_rectified: all points are " +
                        urban_nav_core::formatNumber(std::abs(rows), 2) + " px " + (rows > 0.0 ? "lower" : "higher") +
-                       " than the left one, which is followed: calibrate the pair anew");
+                       " in the right image than in the left one, which is compensated: calibrate the pair again");
   const double roll = run.rig.roll_rad * kRigDegrees, roll_sigma = run.rig.roll_sigma_rad * kRigDegrees;
   if (isFarOutside(roll, roll_sigma, parameters.right_roll))
     warnings.push_back(
         run.input + ": calibration: the right camera is rolled by " + urban_nav_core::formatNumber(roll, 2) + " +- " +
         urban_nav_core::formatNumber(roll_sigma, 1) + " deg against the left one, where swf_vo.right_roll = " +
-        urban_nav_core::formatNumber(parameters.right_roll, 3) + " deg is allowed for: calibrate the pair anew");
+        urban_nav_core::formatNumber(parameters.right_roll, 3) + " deg is assumed: calibrate the pair again");
   const double delay = 1e3 * run.rig.delay_s, delay_sigma = 1e3 * run.rig.delay_sigma_s;
   if (isFarOutside(delay, delay_sigma, parameters.shutter_delay))
     warnings.push_back(
         run.input + ": calibration: the right shutter opens " + urban_nav_core::formatNumber(std::abs(delay), 2) +
         " +- " + urban_nav_core::formatNumber(delay_sigma, 1) + " ms " + (delay > 0.0 ? "after" : "before") +
         " the left one, where swf_vo.shutter_delay = " + urban_nav_core::formatNumber(parameters.shutter_delay, 3) +
-        " ms is allowed for: trigger both cameras by one signal");
+        " ms is assumed: trigger both cameras by one signal");
 }
 
 /// Appends the turns of the right camera that were found and corrected, by the frame of each.
@@ -99,7 +99,7 @@ void addMotionSensors(const VoRun& run, std::vector<std::string>& warnings) {
     warnings.push_back(run.input + ": " + describe(fault, run.frames.front().stamp));
 }
 
-/// Adds the states of motion sensors that are there and in use. Lengths of images are as uncertain as the rig's scale.
+/// Adds the states of the motion sensors in use. The scale of images has the uncertainty of the rig scale.
 void addMotion(const VoSummary& summary, Json& json) {
   const swf_vo::MotionEstimates& motion = summary.motion;
   const auto list = [](const Eigen::Vector3d& values) {
@@ -127,7 +127,7 @@ void addWarnings(const VoRun& run, std::int64_t dropped, std::vector<std::string
   const std::string where = run.input + ": ";
   if (dropped > 0)
     warnings.push_back(where + std::to_string(dropped) +
-                       " frames dropped: their stamps are not later than those before");
+                       " frames dropped: their stamps are not later than the previous ones");
   for (std::size_t i = 0; i < std::min(run.faults.size(), kWarningsShown); ++i) warnings.push_back(run.faults[i]);
   const auto more = run.faults_total - static_cast<std::int64_t>(std::min(run.faults.size(), kWarningsShown));
   if (more > 0) warnings.push_back(where + std::to_string(more) + " more faults of this kind");

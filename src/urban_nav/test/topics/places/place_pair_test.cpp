@@ -75,11 +75,11 @@ TEST_F(PlacePairTest, TheSameSceneOfAnotherDayAgrees) {
   EXPECT_LE(same.shared_words, std::min(same.earlier.words, same.query.words));
   EXPECT_GT(same.comparison->look.agreeing, 2 * other.comparison->look.agreeing);
   EXPECT_GT(same.probability, other.probability);
-  EXPECT_NE(other.reason.find("another place is more like"), std::string::npos) << other.reason;
+  EXPECT_NE(other.reason.find("another place is more similar"), std::string::npos) << other.reason;
 }
 
 TEST_F(PlacePairTest, NamesWhatRulesAPairOut) {
-  EXPECT_NE(pairAt("monday+0", "monday+10").reason.find("too near in time"), std::string::npos);
+  EXPECT_NE(pairAt("monday+0", "monday+10").reason.find("too close in time"), std::string::npos);
   const PlacePair dark = pairAt("monday+0", "tuesday+10");
   EXPECT_NE(dark.reason.find("dark"), std::string::npos) << dark.reason;
   EXPECT_FALSE(dark.comparison);

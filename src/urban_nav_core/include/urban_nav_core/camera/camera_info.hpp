@@ -10,7 +10,7 @@
 
 namespace urban_nav_core {
 
-/// One camera's calibration as sensor_msgs/CameraInfo and its YAML have it.
+/// Calibration of one camera, with the fields of sensor_msgs/CameraInfo and its YAML form.
 struct CameraInfo {
   int width = 0, height = 0;                        ///< px
   std::string distortion_model;                     ///< "plumb_bob", "rational_polynomial", "equidistant"; "" for none
@@ -21,23 +21,23 @@ struct CameraInfo {
   Eigen::Matrix<double, 3, 4> P = Eigen::Matrix<double, 3, 4>::Zero();
 };
 
-/// Fills in the raw camera of a calibration that has P alone, as converters of rectified sequences write it: K from P,
-/// no rotation, no distortion. Returns others as they are.
+/// Returns the calibration with the raw camera filled in where only P is given, as converters of rectified sequences
+/// write it: K from P, no rotation, no distortion. Other calibrations are returned unchanged.
 CameraInfo withRawCamera(CameraInfo info);
 
-/// The raw camera. Throws UserError that begins with `where` (file or topic) if size, K or D cannot be those of a
-/// camera.
+/// Returns the raw camera. Throws UserError that begins with `where` (file or topic) if size, K or D are invalid.
 RawCamera rawCamera(const CameraInfo& info, const std::string& where);
-/// The pinhole after rectification, by P. Throws UserError as above.
+/// Returns the rectified pinhole, from P. Throws UserError that begins with `where` if P is invalid.
 Pinhole rectifiedPinhole(const CameraInfo& info, const std::string& where);
-/// Does an image of this camera need a remap to become rectified?
+/// Returns whether images of this camera must be remapped to be rectified.
 bool needsRectification(const CameraInfo& info);
 
-/// The pair. Throws UserError if the two do not belong together: sizes, focal lengths or rows that differ, or a right
-/// camera that is not to the right (P(0,3) >= 0: images swapped, or a monocular calibration).
+/// Returns the rectified pair. Throws UserError that begins with `where` if sizes, focal lengths or rows of the two
+/// cameras differ, or if the right camera is not to the right (P(0,3) >= 0: images exchanged, or a monocular
+/// calibration).
 StereoCamera stereoCamera(const CameraInfo& left, const CameraInfo& right, const std::string& where);
 
-/// As a message would have it, of one side of a rectified pair.
+/// Return the calibration of the left or right camera of a rectified pair.
 CameraInfo leftInfo(const StereoCamera& camera);
 CameraInfo rightInfo(const StereoCamera& camera);
 

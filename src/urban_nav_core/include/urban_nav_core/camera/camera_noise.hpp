@@ -6,8 +6,8 @@
 
 #include "urban_nav_core/parameters/table.hpp"
 
-/// Parameters that describe the stereo camera: each stage that measures with it has them, under the same names, and
-/// must be given the same values (differingValues in parameters/shared_settings.hpp).
+/// Parameters of the stereo camera. Every stage that measures with it has these rows under the same names and must be
+/// given the same values (differingValues() in parameters/shared_settings.hpp).
 namespace urban_nav_core {
 
 /// Returns the row of `P::disparity_offset`, px.
@@ -21,25 +21,24 @@ Row<P> disparityOffsetRow() {
       0.0,
       5.0,
       {},
-      "Standard deviation of a constant error of all disparities, left by calibration and rectification and estimated "
-      "with the motion; 0 takes the calibration as exact. The same for all stages.",
+      "Standard deviation of a constant error of all disparities from calibration and rectification, estimated with "
+      "the motion; 0 takes the calibration as exact. Common to all stages.",
       "swf_vo/bench, accuracy"};
 }
 
 /// Returns the row of `P::pixel_noise_floor`, px.
 template <typename P>
 Row<P> pixelNoiseFloorRow() {
-  return {
-      "pixel_noise_floor",
-      &P::pixel_noise_floor,
-      "px",
-      0.03,
-      0.001,
-      5.0,
-      {},
-      "Standard deviation added to that of every measured pixel: errors that the patch alignment does not know of. The "
-      "same for all stages.",
-      "swf_vo/bench, consistency"};
+  return {"pixel_noise_floor",
+          &P::pixel_noise_floor,
+          "px",
+          0.03,
+          0.001,
+          5.0,
+          {},
+          "Standard deviation added to that of each measured pixel, for errors not modelled by the patch alignment. "
+          "Common to all stages.",
+          "swf_vo/bench, consistency"};
 }
 
 /// Returns the names of these parameters.

@@ -7,21 +7,21 @@
 
 namespace urban_nav_core {
 
-/// A camera without distortion. The centre of a pixel is an integer: the top left pixel covers (-0.5, -0.5)...(0.5,
-/// 0.5). Optical axes: z forward, x right, y down.
+/// Pinhole camera without distortion. Pixel centres are integers: the top left pixel covers (-0.5, -0.5)...(0.5, 0.5).
+/// Optical axes: z forward, x right, y down.
 struct Pinhole {
   double fx = 0.0, fy = 0.0;  ///< focal lengths, px
   double cx = 0.0, cy = 0.0;  ///< principal point, px
   int width = 0, height = 0;  ///< px
 
-  /// Pixel of a point in the optical frame, inside the image or not; empty if it is not in front of the camera (z > 1
-  /// um).
+  /// Returns the pixel of a point in the optical frame, inside the image or not; empty if the point is not in front of
+  /// the camera (z > 1 um).
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_cam) const;
-  /// d(u, v)/d(p_cam), for a point in front.
+  /// Returns d(u, v)/d(p_cam) for a point in front of the camera.
   Eigen::Matrix<double, 2, 3> projectJacobian(const Eigen::Vector3d& p_cam) const;
-  /// The direction of a pixel with z = 1.
+  /// Returns the direction of a pixel, with z = 1.
   Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const;
-  /// Does the place lie on one of the image's pixels?
+  /// Returns whether the position lies on a pixel of the image.
   bool contains(const Eigen::Vector2d& pixel) const;
 };
 

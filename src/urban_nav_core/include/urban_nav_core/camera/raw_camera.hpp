@@ -10,14 +10,15 @@
 
 namespace urban_nav_core {
 
-/// A camera as it left the factory: a pinhole with a lens.
+/// Unrectified camera: a pinhole with lens distortion.
 struct RawCamera {
   Pinhole pinhole;
   Distortion distortion;
 
-  /// Pixel of a point in the optical frame, inside the image or not; empty behind the camera and beyond the fold.
+  /// Returns the pixel of a point in the optical frame, inside the image or not; empty behind the camera and beyond the
+  /// fold of the distortion.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_cam) const;
-  /// The direction, with z = 1, that a pixel sees; empty where the lens model folds.
+  /// Returns the direction of a pixel, with z = 1; empty beyond the fold of the distortion.
   std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;
 };
 

@@ -10,24 +10,24 @@
 
 namespace urban_nav_core {
 
-/// The piece of surface about a point that a left camera sees, as a plane in its optical frame: plane . X = 1 (1/m);
-/// zero: at infinity.
+/// Tangent plane of the surface at a point, in the left optical frame: plane . X = 1 (1/m). Zero is the plane at
+/// infinity.
 
-/// Through a point with slopes of disparity (d per px of u and v).
+/// Returns the plane through a stereo pixel with the given gradient of disparity (px per px of u and v).
 Eigen::Vector3d surfaceThrough(const StereoCamera& camera, const StereoCamera::Pixel& pixel,
                                const Eigen::Vector2d& slopes);
 
-/// Through the point at `inverse_depth` (1/z) on `ray` (z = 1) with the slant (1/m) that plane.x and plane.y fx / fy
-/// are.
+/// Returns the plane through the point at `inverse_depth` (1/z) on `ray` (z = 1). `slant`, 1/m, is (plane.x, plane.y fx
+/// / fy).
 Eigen::Vector3d leaning(const StereoCamera& camera, const Eigen::Vector3d& ray, double inverse_depth,
                         const Eigen::Vector2d& slant);
 
-/// The plane moved along the ray to another inverse depth of its point; facing the camera where that is no mere
-/// correction.
+/// Returns the plane scaled to another inverse depth of its point on the ray. Where the inverse depth grows fourfold or
+/// more, or the ray does not intersect the plane, returns the fronto-parallel plane at that inverse depth.
 Eigen::Vector3d surfaceAt(const Eigen::Vector3d& plane, const Eigen::Vector3d& ray, double inverse_depth);
 
-/// How pixels about the ray's pixel move into the view of a camera at T_to_from, by the homography of the plane (px of
-/// level 0). Empty if the point would lie behind that camera.
+/// Returns the warp of the pixels around the pixel of `ray` into the view of a camera at T_to_from, by the homography
+/// of the plane (px of level 0). Empty if the point would lie behind that camera.
 std::optional<PatchWarp> warpOfSurface(const StereoCamera& camera, const Eigen::Vector3d& plane,
                                        const Eigen::Vector3d& ray, const Pose& T_to_from);
 

@@ -30,7 +30,7 @@ struct Between {
 };
 Between between(const Pose& T_a_b, const Pose& T_a_c);
 
-/// Composition, inverse and difference with covariances; errors of the two arguments are taken as independent.
+/// Composition, inverse and difference with covariances; errors of the two arguments are assumed independent.
 PoseWithCovariance compose(const PoseWithCovariance& T_a_b, const PoseWithCovariance& T_b_c);
 PoseWithCovariance invert(const PoseWithCovariance& T_a_b);
 

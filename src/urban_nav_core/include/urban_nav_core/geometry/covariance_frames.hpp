@@ -5,9 +5,8 @@
 
 namespace urban_nav_core {
 
-/// From one convention of a pose's tangent to another, and from one body frame to another. "Box" is the convention of
-/// everything that leaves a stage (docs/conventions.md): T_a_b = [Exp(phi) R, t + rho], both in the parent frame,
-/// translation first.
+/// Conversions of covariances between tangent conventions and between body frames. "Box" is the convention of all
+/// outputs of stages (docs/conventions.md): T_a_b = [Exp(phi) R, t + rho], both in the parent frame, translation first.
 ///
 /// d_box = boxFromLeft(T) d_left for T = Exp(d_left) T_mean, the tangent of SE(3) in the parent frame.
 Matrix6d boxFromLeft(const Pose& T_a_b);
@@ -16,23 +15,25 @@ Matrix6d leftFromBox(const Pose& T_a_b);
 Matrix6d boxFromRight(const Pose& T_a_b);
 Matrix6d rightFromBox(const Pose& T_a_b);
 
-/// J covariance J^T, kept symmetric.
+/// Returns J covariance J^T, exactly symmetric.
 Matrix6d transformCovariance(const Matrix6d& J, const Matrix6d& covariance);
-/// The information of d' = J d for that of d, J invertible: J^-T information J^-1. The information may be singular.
+/// Returns the information of d' = J d from that of d: J^-T information J^-1, J invertible. The information may be
+/// singular.
 Matrix6d transformInformation(const Matrix6d& J_inverse, const Matrix6d& information);
-/// Rotation first to translation first, and back: the two halves change places.
+/// Exchanges the translation and rotation blocks (rotation first to translation first, and back).
 Matrix6d swapHalves(const Matrix6d& matrix);
 
-/// T_odom_base for a measured T_odom_camera and a fixed T_base_camera that is known exactly.
+/// Returns T_odom_base from T_odom_camera; T_base_camera is constant and exact.
 PoseWithCovariance baseFromCamera(const PoseWithCovariance& T_odom_camera, const Pose& T_base_camera);
-/// T_base1_base2 for a measured T_camera1_camera2.
+/// Returns T_base1_base2 from T_camera1_camera2; T_base_camera is constant and exact.
 PoseWithCovariance baseMotionFromCameraMotion(const PoseWithCovariance& T_camera1_camera2, const Pose& T_base_camera);
-/// T_first_base in the axes of the first base_link, where `odom` is any frame in which the first pose is known exactly.
+/// Returns T_first_base in the axes of the first base_link. `odom` may be any frame in which the first pose is known
+/// exactly.
 PoseWithCovariance relativeToFirst(const PoseWithCovariance& T_odom_base, const Pose& T_odom_first);
 
-/// A covariance for display of a constraint that leaves directions free: the inverse where there is information, 1e6
-/// m^2 and 10 rad^2 along the free directions. Translation and rotation are distinguished by `length`, the m that weigh
-/// as much as one rad.
+/// Returns a covariance for the display of a constraint with unobserved directions: the inverse in directions with
+/// information, 1e6 m^2 and 10 rad^2 in the others. `length`, m: the translation that counts as one rad when directions
+/// are compared.
 Matrix6d covarianceForDisplay(const Matrix6d& information, double length);
 
 }  // namespace urban_nav_core

@@ -8,21 +8,21 @@ namespace urban_nav_core {
 /// A position in WGS 84.
 struct Geodetic {
   double latitude = 0.0, longitude = 0.0;  ///< rad
-  double height = 0.0;                     ///< m over the ellipsoid
+  double height = 0.0;                     ///< m above the ellipsoid
 };
 
-/// Axes east, north and up at a point of the ellipsoid, without distortion (EPSG method 9837). Immutable, so
-/// thread-safe.
+/// Cartesian axes east, north and up at a point of the ellipsoid, without map distortion (EPSG method 9837). Immutable,
+/// hence thread-safe.
 class LocalTangent {
  public:
   explicit LocalTangent(const Geodetic& origin);
 
   Eigen::Vector3d toLocal(const Geodetic& position) const;
-  /// To 0.1 mm for heights between -5 km and 20 km.
+  /// Returns the position in WGS 84, to 0.1 mm for heights between -5 km and 20 km.
   Geodetic toGeodetic(const Eigen::Vector3d& local) const;
 
  private:
-  Eigen::Vector3d origin_;  ///< in the earth's frame
+  Eigen::Vector3d origin_;  ///< m, earth-centred
   Eigen::Matrix3d R_local_earth_;
 };
 

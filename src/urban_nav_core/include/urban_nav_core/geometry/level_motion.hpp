@@ -17,8 +17,9 @@ struct LevelMotion {
   Vector3d operator*(const Vector3d& p) const { return pose() * p; }
 };
 
-/// Returns the level motion that brings `from` closest to `to` in the weighted mean square. The vectors have the same
-/// length, m, and weights (at least 0) of which one is positive; without horizontal extent the turn is 0.
+/// Returns the level motion that minimises the weighted mean square distance of `from` to `to`. All vectors have the
+/// same length; positions in m; weights are non-negative and at least one is positive. Without horizontal extent the
+/// turn is 0.
 LevelMotion fitLevelMotion(const std::vector<Vector3d>& from, const std::vector<Vector3d>& to,
                            const std::vector<double>& weights);
 

@@ -10,15 +10,15 @@ namespace urban_nav_core {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// A rigid transform T_a_b: p_a = R p_b + t. Read T_a_b * T_b_c = T_a_c. The rotation is a unit quaternion; products
-/// are normalised, so that a million of them stay rotations. A quaternion whose length is one to the last bits is taken
-/// as it is, so that what a file holds goes in and out unchanged.
+/// Rigid transform T_a_b: p_a = R p_b + t, and T_a_b * T_b_c = T_a_c. The rotation is a unit quaternion; products are
+/// normalised, so that errors do not accumulate. A quaternion that is of unit length to the last bits is not
+/// normalised, so that poses read from a file are written unchanged.
 class Pose {
  public:
   Pose() : q_(Quaterniond::Identity()), t_(Vector3d::Zero()) {}
   /// Normalises q. Asserts that q is finite and not zero.
   Pose(const Quaterniond& q, const Vector3d& t);
-  /// The rotation nearest to R (which must be one to about 1e-3).
+  /// Takes the rotation nearest to R. Requires that R is a rotation to about 1e-3.
   Pose(const Matrix3d& R, const Vector3d& t);
 
   const Quaterniond& q() const { return q_; }
@@ -37,26 +37,26 @@ class Pose {
   Vector3d t_;
 };
 
-/// Exponential and logarithm of SE(3), tangent (rho, phi), translation first: Exp(rho, phi) = [Exp(phi), J_l(phi) rho].
+/// Return exponential and logarithm of SE(3), tangent (rho, phi), translation first: Exp(rho, phi) = [Exp(phi),
+/// J_l(phi) rho].
 Pose expSe3(const Vector6d& tangent);
 Vector6d logSe3(const Pose& T);
 
-/// Ad(T) with T Exp(x) T^-1 = Exp(Ad(T) x).
+/// Returns Ad(T) with T Exp(x) T^-1 = Exp(Ad(T) x).
 Matrix6d adjoint(const Pose& T);
 
-/// The perturbation used by every covariance that leaves a stage, and by the estimators:
-/// boxPlus(T, (rho, phi)) = [Exp(phi) R, t + rho], both in the parent frame. boxMinus(A, B) is the d with A =
-/// boxPlus(B, d).
+/// Perturbation used by all estimators and by the covariances of all outputs of stages: boxPlus(T, (rho, phi)) =
+/// [Exp(phi) R, t + rho], both in the parent frame. boxMinus(A, B) is the d with A = boxPlus(B, d).
 Pose boxPlus(const Pose& T_a_b, const Vector6d& d);
 Vector6d boxMinus(const Pose& A, const Pose& B);
 
-/// Angle of the rotation between two poses, rad, and distance of their origins, m.
+/// Return the angle of the rotation between two poses, rad, and the distance of their origins, m.
 double angleBetween(const Pose& A, const Pose& B);
 double distanceBetween(const Pose& A, const Pose& B);
 
-/// Equal within `tolerance` (m for the translation, rad for the rotation).
+/// Returns whether the poses are equal within `tolerance` (m for the translation, rad for the rotation).
 bool isApprox(const Pose& A, const Pose& B, double tolerance);
-/// "t = (x, y, z) m, rotation vector = (a, b, c) rad".
+/// Prints "t = (x, y, z) m, rotation vector = (a, b, c) rad".
 std::ostream& operator<<(std::ostream& out, const Pose& T);
 
 }  // namespace urban_nav_core

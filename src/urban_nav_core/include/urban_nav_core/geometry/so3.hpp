@@ -10,20 +10,20 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/// The skew-symmetric matrix with skew(a) b = a x b.
+/// Returns the skew-symmetric matrix with skew(a) b = a x b.
 Matrix3d skew(const Vector3d& a);
 
-/// Rotation by |phi| rad about phi. Exact to machine precision at any angle, the identity at zero.
+/// Returns the rotation by |phi| rad about phi. Exact to machine precision at any angle, the identity at zero.
 Quaterniond expSo3(const Vector3d& phi);
 
-/// The rotation vector of q, |phi| <= pi. Exact near 0 and near pi; q need not be normalised to the last bit, -q gives
-/// the same.
+/// Returns the rotation vector of q, |phi| <= pi. Exact near 0 and near pi. q need not be exactly normalised; q and -q
+/// give the same result.
 Vector3d logSo3(const Quaterniond& q);
 
-/// Left Jacobian of SO(3): Exp(phi + d) = Exp(J d) Exp(phi) to first order (Barfoot, State Estimation for Robotics, eq.
-/// 7.77).
+/// Returns the left Jacobian of SO(3): Exp(phi + d) = Exp(J d) Exp(phi) to first order (Barfoot, State Estimation for
+/// Robotics, eq. 7.77).
 Matrix3d leftJacobianSo3(const Vector3d& phi);
-/// Its inverse (eq. 7.76 there); defined for |phi| < 2 pi.
+/// Returns the inverse of the left Jacobian (Barfoot, eq. 7.76), for |phi| < 2 pi.
 Matrix3d leftJacobianInverseSo3(const Vector3d& phi);
 
 }  // namespace urban_nav_core

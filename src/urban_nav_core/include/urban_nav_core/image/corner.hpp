@@ -5,7 +5,7 @@
 
 namespace urban_nav_core {
 
-/// A corner at a whole pixel of one pyramid level.
+/// Corner at an integer pixel of one pyramid level.
 struct Corner {
   std::int16_t u = 0, v = 0;  ///< px of its level
   std::uint8_t fast = 0;      ///< score of FAST (fast.hpp), grey levels

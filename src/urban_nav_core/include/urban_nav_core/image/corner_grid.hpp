@@ -10,10 +10,10 @@
 
 namespace urban_nav_core {
 
-/// How many corners a cell of the image may give, so that dark or smooth parts still give some and busy ones do not
-/// explode: those above `threshold`; where they are fewer than `least`, the best `least` of all that were detected (at
-/// the lower threshold of Fast::detect); where they are more than `most`, the best `most`. Best is by score of FAST, of
-/// equal scores the first in reading order: the same on every machine.
+/// Number of corners per cell of the image, so that dark or smooth regions keep some and textured ones are limited. All
+/// corners above `threshold` are kept; if there are fewer than `least`, the best `least` of all detected ones (at the
+/// lower threshold of Fast::detect); if there are more than `most`, the best `most`. Best means the highest FAST score,
+/// ties in reading order, so that the result is the same on every machine.
 struct CornerQuota {
   int cell = 32;       ///< px, side of a cell
   int threshold = 20;  ///< grey levels
@@ -21,22 +21,21 @@ struct CornerQuota {
   int most = 24;
 };
 
-/// The corners of one image, ordered by square cells so that those about a place are found at once.
-/// Not thread-safe while it is filled; allocates only while its buffers grow.
+/// Corners of one image, ordered by square cells for queries by position. Not thread-safe while it is filled. Allocates
+/// only while its buffers grow.
 class CornerGrid {
  public:
   /// `cell`: side of the cells in px, about the usual search radius.
   explicit CornerGrid(int cell = 16);
 
-  /// Takes the corners of an image of this size; order in: any; order inside: by cell, cells in reading order, within a
-  /// cell as they came.
+  /// Stores the corners of an image of this size, given in any order. Stored order: by cell, cells in reading order,
+  /// within a cell as given.
   void assign(const std::vector<Corner>& corners, int width, int height);
 
   const std::vector<Corner>& corners() const { return corners_; }
   std::size_t size() const { return corners_.size(); }
 
-  /// Calls visit(corner, index into corners()) for all corners within `radius` of (u, v), borders included, in a
-  /// fixed order.
+  /// Calls visit(corner, index into corners()) for all corners within `radius` of (u, v), inclusive, in a fixed order.
   template <typename Visit>
   void forEachWithin(double u, double v, double radius, Visit visit) const {
     forEachInside(u - radius, v - radius, u + radius, v + radius, [&](const Corner& corner, std::size_t index) {
@@ -45,14 +44,15 @@ class CornerGrid {
     });
   }
 
-  /// The same for a rectangle: u_min <= u <= u_max, v_min <= v <= v_max; for the band of rows of a stereo search.
+  /// Calls visit(corner, index into corners()) for all corners with u_min <= u <= u_max, v_min <= v <= v_max, in a
+  /// fixed order; for the row band of a stereo search.
   template <typename Visit>
   void forEachInside(double u_min, double v_min, double u_max, double v_max, Visit visit) const {
     if (corners_.empty() || !(u_max >= 0.0 && v_max >= 0.0 && u_min <= width_ && v_min <= height_)) return;
     const int first_column = toCell(u_min, columns_), last_column = toCell(u_max, columns_);
     const int first_row = toCell(v_min, rows_), last_row = toCell(v_max, rows_);
     for (int row = first_row; row <= last_row; ++row) {
-      // Cells of one row follow each other, so do their corners.
+      // Cells of one row are contiguous, hence so are their corners.
       const std::size_t begin = starts_[static_cast<std::size_t>(row * columns_ + first_column)];
       const std::size_t end = starts_[static_cast<std::size_t>(row * columns_ + last_column + 1)];
       for (std::size_t i = begin; i < end; ++i) {
@@ -71,10 +71,10 @@ class CornerGrid {
   int width_ = 0, height_ = 0;
   int columns_ = 0, rows_ = 0;
   std::vector<Corner> corners_;
-  std::vector<std::size_t> starts_;  ///< of each cell in corners_, one more for the end
+  std::vector<std::size_t> starts_;  ///< first corner of each cell in corners_, and the end
 };
 
-/// Keeps what the quota allows, in the order it had. Not thread-safe; allocates only while its buffers grow.
+/// Selects corners by CornerQuota, in the order given. Not thread-safe; allocates only while its buffers grow.
 class CornerCap {
  public:
   explicit CornerCap(const CornerQuota& quota) : quota_(quota) {}
@@ -83,8 +83,8 @@ class CornerCap {
  private:
   CornerQuota quota_;
   std::vector<int> histograms_;  ///< of scores, 256 per cell
-  std::vector<int> limits_;      ///< per cell: the lowest score that may stay
-  std::vector<int> room_;        ///< per cell: how many of that score
+  std::vector<int> limits_;      ///< per cell: the lowest score that is kept
+  std::vector<int> room_;        ///< per cell: remaining number of corners with that score
 };
 
 }  // namespace urban_nav_core

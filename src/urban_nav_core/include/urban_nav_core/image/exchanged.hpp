@@ -5,9 +5,9 @@
 
 namespace urban_nav_core {
 
-/// Detects exchanged left and right images of a rectified pair. Compares textured blocks along the rows at a quarter
-/// of the resolution. Returns true where by far most disparities that are clear of zero have the wrong sign. Needs
-/// some ten textured blocks, else returns false. Pure; allocates nothing.
+/// Detects exchanged left and right images of a rectified pair, by comparing textured blocks along the rows at a
+/// quarter of the resolution. Returns true if the great majority of disparities clearly different from zero have the
+/// wrong sign. Returns false with fewer than about ten textured blocks. Pure; does not allocate.
 bool looksExchanged(const ImageView& left, const ImageView& right);
 
 }  // namespace urban_nav_core

@@ -7,37 +7,37 @@
 
 namespace urban_nav_core {
 
-/// An image and its halved copies. Each level is the one below, smoothed by the binomial (1 4 6 4 1)/16 in both
-/// directions and taken at its even pixels: the filter is centred on a pixel, so with integers as pixel centres
+/// Image pyramid. Each level is the previous one, smoothed by the binomial (1 4 6 4 1)/16 in both directions and
+/// sampled at its even pixels. The filter is centred on a pixel, so with integers as pixel centres
 ///
 ///   u_level = u / 2^level,  v_level = v / 2^level   exactly.
 ///
-/// A level has (n + 1) / 2 columns and rows where the one below has n. Outside the image the filter sees it mirrored
-/// about the border pixels (a b c | b a). Sums are rounded to nearest, once per level.
+/// A level has (n + 1) / 2 columns and rows where the previous one has n. The image is mirrored about the border pixels
+/// (a b c | b a). Sums are rounded to nearest, once per level.
 ///
-/// All levels, level 0 included, are copies: they live until the next build() and owe nothing to the input. Before the
-/// first and after the last byte of a level, and so around every row, at least kPadding bytes may be read (of
-/// unspecified value), which spares SIMD loops their tails. Not thread-safe; allocates only when the size changes.
+/// All levels, including level 0, are copies, valid until the next build(). At least kPadding bytes (of unspecified
+/// value) may be read before the first and after the last byte of a level, and so around every row, which spares SIMD
+/// loops their tails. Not thread-safe; allocates only when the size changes.
 class Pyramid {
  public:
   static constexpr int kPadding = 32;
   static constexpr int kSmallestSide = 16;  ///< px; smaller levels are not made
 
-  /// `levels` >= 1 are asked for; small images have fewer. Memory is taken by the first build().
+  /// `levels` >= 1: requested number of levels; small images have fewer. The first build() allocates.
   explicit Pyramid(int levels);
-  /// Takes the memory for images of this size now.
+  /// Allocates for images of this size.
   Pyramid(int levels, int width, int height);
   Pyramid(Pyramid&&) noexcept = default;
   Pyramid& operator=(Pyramid&&) noexcept = default;
-  Pyramid(const Pyramid&) = delete;  // the views would look into the other's pixels
+  Pyramid(const Pyramid&) = delete;  // the views would refer to the pixels of the other
   Pyramid& operator=(const Pyramid&) = delete;
 
-  /// An empty view leaves the pyramid empty (levels() == 0).
+  /// Builds all levels. An empty view leaves the pyramid empty (levels() == 0).
   void build(const ImageView& image);
 
   int levels() const { return filled_; }
   const ImageView& level(int l) const { return views_[static_cast<std::size_t>(l)]; }
-  /// Pixels of this level per pixel of level 0: 2^-l.
+  /// Returns the pixels of level l per pixel of level 0: 2^-l.
   static double scale(int l) { return 1.0 / static_cast<double>(1 << l); }
 
  private:

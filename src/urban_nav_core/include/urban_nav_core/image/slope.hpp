@@ -7,10 +7,9 @@ namespace urban_nav_core {
 
 class Archive;
 
-/// How a piece of surface slopes along the two axes of an image: what pixels said so far, and what that means. Surfaces
-/// may face any way: where all directions are as likely as each other, their slopes have a bivariate Cauchy
-/// distribution, whose tails leave a road or a wall alongside its slope as soon as pixels speak of it, and whose middle
-/// keeps what says little from making slopes of noise.
+/// Estimate of a surface's slopes along the two axes of an image. The prior is a bivariate Cauchy distribution, which
+/// corresponds to a uniform distribution of surface normals. Its heavy tails hardly bias the slope of a road or a wall
+/// once observed; its peak keeps weak observations from producing slopes out of noise.
 class Slope {
  public:
   struct Estimate {
@@ -18,12 +17,12 @@ class Slope {
     Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
   };
 
-  /// An observation: the slope at which it is most likely, times its information; and that information.
+  /// Adds an observation. `moment`: information times the most likely slope.
   void see(const Eigen::Vector2d& moment, const Eigen::Matrix2d& information);
-  /// What is known of it, where a surface at 45 deg to the line of sight has a slope of `usual`: the Gaussian nearest
-  /// to the posterior, by variational Bayes over the scale of the prior (Bishop 2006, chapter 10).
+  /// Returns the Gaussian nearest to the posterior, by variational Bayes over the scale of the prior (Bishop 2006,
+  /// chapter 10). `usual`: slope of a surface at 45 deg to the line of sight.
   Estimate under(double usual) const;
-  /// The same, of slopes in other units: `factor` of them to one of these.
+  /// Returns the same estimate in other units: a slope of 1 here is `factor` there.
   Slope scaled(double factor) const;
   void archive(Archive& archive);
 

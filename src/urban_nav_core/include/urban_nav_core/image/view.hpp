@@ -7,8 +7,8 @@
 
 namespace urban_nav_core {
 
-/// Non-owning view of 8-bit grey pixels. Row-major, `stride` bytes from row to row. (0, 0) is the
-/// middle of the top left pixel, u to the right, v down. Cheap to copy; valid as long as the owner is.
+/// Non-owning view of 8-bit grey pixels. Row-major, `stride` bytes from row to row. (0, 0) is the centre of the top
+/// left pixel, u to the right, v down. Cheap to copy; must not outlive the owner of the pixels.
 struct ImageView {
   const std::uint8_t* data = nullptr;
   int width = 0;

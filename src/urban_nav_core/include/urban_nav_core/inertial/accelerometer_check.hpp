@@ -11,47 +11,48 @@
 
 namespace urban_nav_core {
 
-/// Conversion from the numbers of messages to the specific force of a device: scale * axes * measured.
+/// Conversion from message values to the specific force in the axes of the device: scale * axes * measured.
 struct AccelerometerConvention {
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< as parseAxisMap() makes it
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< as returned by parseAxisMap()
   double scale = 1.0;                                  ///< m/s2 per unit of the messages
 };
 
 enum class AccelerometerFault {
   None,
   NotFinite,  ///< no finite measurement
-  NoGravity,  ///< the device takes gravity off
+  NoGravity,  ///< the device subtracts gravity
   Unit,       ///< other units than m/s2
   Size,       ///< neither m/s2 nor another usual unit
   Direction,  ///< other axes or another sign
 };
 const char* toString(AccelerometerFault fault);
 
-/// Fault of an accelerometer, and the convention that repairs it.
+/// Fault of an accelerometer, and the convention that corrects it.
 struct AccelerometerVerdict {
   AccelerometerFault fault = AccelerometerFault::None;
   double angle = 0.0;                              ///< rad between the mean specific force and up
   double size = 0.0;                               ///< m/s2: mean length of the specific force
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< m/s2, in the axes of the device
-  std::optional<AccelerometerConvention> repair;   ///< to be applied after the present convention; empty: none fits
+  std::optional<AccelerometerConvention> repair;   ///< to be applied after the present convention; empty: no known
+                                                   ///< convention fits
   bool sound() const { return fault == AccelerometerFault::None; }
-  /// Returns what is wrong, with its numbers and the likely cause; empty for a sound accelerometer.
+  /// Returns the fault with its numbers and likely cause; empty for a plausible accelerometer.
   std::string sentence() const;
 };
 
-/// Compares the specific force that an accelerometer measures with the direction that is up in its frame: at rest and
-/// on average of a drive, the force is 9.81 m/s2 upwards (sensor_msgs/Imu). Old measurements lose weight after some
-/// minutes, so that a device that changes is assessed by what it is now. Not thread-safe.
+/// Compares the measured specific force with the vertical in the device frame: at rest, and on average over a drive,
+/// the force is 9.81 m/s2 upwards (sensor_msgs/Imu). Old measurements lose weight after some minutes, so that a device
+/// that changes is assessed by its present output. Not thread-safe.
 class AccelerometerCheck {
  public:
-  /// Adds a measurement. `force`: m/s2 in the axes of the device. `rate`: of its gyroscope, rad/s; not finite: none.
+  /// Adds a measurement. `force`: m/s2 in the axes of the device. `rate`: angular rate, rad/s; not finite: unavailable.
   void add(const Eigen::Vector3d& force, const Eigen::Vector3d& rate);
-  /// Returns the verdict. `up`: unit vector against gravity in the axes of the device, by its mounting. `left`: unit
-  /// vector to the left of the vehicle, in the same axes. The lateral force in turns, of the sign of the yaw rate,
-  /// distinguishes axes that are up alike. Sound without measurements, and where the device turned over too much for a
-  /// mean direction.
+  /// Returns the verdict. `up`: unit vector against gravity in the axes of the device, from its mounting. `left`: unit
+  /// vector to the left of the vehicle, in the same axes. The lateral force in turns, which has the sign of the yaw
+  /// rate, distinguishes conventions with the same vertical. No fault without measurements, nor if the device rotated
+  /// too much for a mean direction.
   AccelerometerVerdict verdict(const Eigen::Vector3d& up, const Eigen::Vector3d& left) const;
-  /// Returns whether verdict() is sound, at the cost of a few products.
+  /// Returns whether verdict() has no fault, at the cost of a few products.
   bool isPlausible(const Eigen::Vector3d& up) const;
   /// Returns how many measurements were added, finite or not.
   std::int64_t count() const { return count_; }
@@ -64,8 +65,8 @@ class AccelerometerCheck {
   AccelerometerConvention bestAxes(const Eigen::Vector3d& up, const Eigen::Vector3d& left) const;
 
   std::int64_t count_ = 0, finite_ = 0;
-  double weight_ = 0.0, length_ = 0.0, rate_weight_ = 0.0;                            // sums of weights, of lengths
-  Eigen::Vector3d force_ = Eigen::Vector3d::Zero(), rate_ = Eigen::Vector3d::Zero();  // sums
+  double weight_ = 0.0, length_ = 0.0, rate_weight_ = 0.0;                            // sums of weights and of lengths
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero(), rate_ = Eigen::Vector3d::Zero();  // weighted sums
   Eigen::Matrix3d force_rate_ = Eigen::Matrix3d::Zero(), force_force_ = Eigen::Matrix3d::Zero(),
                   rate_rate_ = Eigen::Matrix3d::Zero();  // sums of outer products
 };

@@ -5,15 +5,15 @@
 
 namespace urban_nav_core {
 
-/// Rotation of a body from rates of a gyroscope, preintegrated on the manifold (Forster et al. 2017, eq. 33, 35, 44 and
-/// A.7): R_from_to, its covariance, and how it goes with the bias, so that another bias needs no second integration.
-/// Tangents are those of so3.hpp.
+/// Preintegrated rotation of a body from gyroscope rates, on the manifold (Forster et al. 2017, eq. 33, 35, 44 and
+/// A.7): R_from_to, its covariance and its Jacobian with respect to the bias, which makes a second integration
+/// unnecessary when the bias changes. Tangents as in so3.hpp.
 class RotationPreintegration {
  public:
   /// `bias`: subtracted from the rates, rad/s.
   explicit RotationPreintegration(const Vector3d& bias = Vector3d::Zero()) : bias_(bias) {}
 
-  /// Continues by `seconds` (0 or more) at a rate (rad/s) whose integral has the variance `density` (rad^2/s) times
+  /// Integrates a rate (rad/s) over `seconds` (0 or more). The integral has the variance `density` (rad^2/s) times
   /// `seconds` about each axis. Requires finite arguments.
   void add(const Vector3d& rate, double seconds, double density);
 
@@ -23,7 +23,7 @@ class RotationPreintegration {
   Quaterniond rotation(const Vector3d& bias) const;
   /// Returns J, seconds: right perturbation of the rotation for a change of the bias.
   const Matrix3d& biasJacobian() const { return J_bias_; }
-  /// Returns the covariance of the right perturbation d, R_true = R Exp(d), by the noise of the rates alone, rad^2.
+  /// Returns the covariance of the right perturbation d, R_true = R Exp(d), from the noise of the rates only, rad^2.
   const Matrix3d& covariance() const { return covariance_; }
   /// Returns the bias that was subtracted, rad/s.
   const Vector3d& bias() const { return bias_; }
@@ -37,8 +37,8 @@ class RotationPreintegration {
   double seconds_ = 0.0;
 };
 
-/// e = Log(R(bias)^-1 R_odom_from^-1 R_odom_to), zero where rates and rotations agree, with its exact Jacobians: by
-/// left perturbations Exp(phi) R of both rotations (boxPlus), and by the bias.
+/// e = Log(R(bias)^-1 R_odom_from^-1 R_odom_to), zero where rates and rotations agree, with exact Jacobians with
+/// respect to left perturbations Exp(phi) R of both rotations (boxPlus) and to the bias.
 struct RotationResidual {
   Vector3d e;
   Matrix3d from, to, bias;

@@ -7,13 +7,13 @@
 
 namespace urban_nav_core {
 
-/// Returns the number on which all callers agree that name the same file, threads or processes: the proposal of the
-/// first. The file stays, so its name must be new for each agreement; missing folders are made. Throws UserError if it
-/// cannot be made or holds something else. Thread-safe.
+/// Returns one number to all callers, threads or processes, that name the same file: the first caller's proposal. The
+/// file is not removed, so each agreement needs a new name; missing folders are created. Throws UserError if the file
+/// cannot be created or has other content. Thread-safe.
 std::int64_t agreeOnNumber(const std::string& path, std::int64_t proposal);
 
-/// Returns the number that another process has written to that file, as agreeOnNumber() does, and nothing while there
-/// is no file. Throws UserError if it holds something else. Thread-safe.
+/// Returns the number that another process has written to that file with agreeOnNumber(); nullopt if there is no file.
+/// Throws UserError if it has other content. Thread-safe.
 std::optional<std::int64_t> findAgreedNumber(const std::string& path);
 
 }  // namespace urban_nav_core

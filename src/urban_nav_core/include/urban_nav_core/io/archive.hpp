@@ -17,28 +17,29 @@ namespace urban_nav_core {
 
 class Pose;
 
-/// The state of an object as bytes, and back. A class names its members once, in one function that serves both ways, so
-/// that what is written and what is read cannot differ:
+/// Serialises the state of an object to bytes and back. A class lists its members once, in one function for both
+/// directions, so that writing and reading cannot differ:
 ///
 ///   void HealthMonitor::archive(Archive& archive) { archive(was_lost_); }
 ///
-/// Takes bool, whole numbers and enumerators (8 bytes each), double, float, text, matrices of fixed size, poses;
-/// arrays, vectors, pairs and optionals of these; and whatever has such a member, or a function `archive(Archive&, T&)`
-/// beside it. Little-endian on every machine, numbers to the last bit.
+/// Supports bool, integers and enumerators (8 bytes each), double, float, text, matrices of fixed size, poses; arrays,
+/// vectors, pairs and optionals of these; and types with such a member or a function `archive(Archive&, T&)` in their
+/// namespace. Little-endian on every machine, bit-exact.
 ///
-/// What is read is not trusted: a number of things to come is held against the bytes that are left, a whole number
-/// against half the range of its type (so that what counts on from there does not run over), numbers must be finite and
-/// rotations be rotations; `require` is for what else a class relies on. Anything else is a DataError "is damaged", and
-/// the object that was being read is then half old and half new: it must not be used. Not thread-safe.
+/// Input is validated: element counts against the remaining bytes, integers against half the range of their type (so
+/// that counters do not overflow), numbers must be finite, quaternions of unit length; `require` is for further
+/// invariants of a class. Violations throw DataError "is damaged"; the object being read is then in an unspecified
+/// state and must not be used. Not thread-safe.
 class Archive {
  public:
-  /// Writes.
+  /// Creates an archive for writing.
   Archive() = default;
-  /// Reads bytes, which must outlive it; `what` they are ("state of swf_vo") stands in errors.
+  /// Creates an archive for reading `bytes`, which must outlive it. `what`: name of the content ("state of swf_vo"),
+  /// for errors.
   Archive(std::string_view bytes, std::string what) : reading_(true), what_(std::move(what)), left_(bytes) {}
 
   bool isReading() const { return reading_; }
-  /// What was written.
+  /// Returns the written bytes.
   std::string take() { return std::move(written_); }
 
   template <typename... Values>
@@ -46,14 +47,14 @@ class Archive {
     (one(values), ...);
   }
 
-  /// Reading: without it the bytes are damaged; `found` is what they say instead, for people. Writing: nothing.
+  /// Reading: throws DataError unless the condition holds; `found` describes the content instead. Writing: no effect.
   void require(bool holds, const char* found) const {
     if (reading_ && !holds) refuse(found);
   }
-  /// Reading: nothing is left over.
-  void finish() const { require(left_.empty(), "more than was written"); }
+  /// Reading: throws DataError if bytes are left over.
+  void finish() const { require(left_.empty(), "it has trailing bytes"); }
 
-  /// How many things follow, each of which takes `least` bytes or more.
+  /// Reads or writes an element count; each element takes at least `least` bytes.
   void count(std::size_t& value, std::size_t least = 1);
 
  private:
@@ -109,7 +110,7 @@ class Archive {
     } else {
       if (reading_) values.clear();
       for (std::size_t i = 0; i < size; ++i) {
-        if (reading_) values.emplace_back();  // one by one: the number of them may be a lie
+        if (reading_) values.emplace_back();  // one by one: the count may be corrupt
         one(values[i]);
       }
     }
@@ -143,17 +144,17 @@ class Archive {
 
   bool reading_ = false;
   std::string what_;
-  std::string_view left_;  // to read
+  std::string_view left_;  // still to be read
   std::string written_;
 };
 
 /// Returns the bytes of a state with its name, its version and a checksum.
 std::string seal(std::string_view what, std::uint32_t version, std::string_view content);
 
-/// A state whose name and checksum are verified.
+/// State whose name and checksum have been verified.
 struct UnsealedState {
   std::uint32_t version = 0;
-  std::string_view content;  ///< a part of the bytes given to unseal
+  std::string_view content;  ///< part of the bytes given to unseal()
 };
 /// Reads a sealed state of any version from `oldest` to `newest`. Throws DataError that names the fault if the bytes
 /// are damaged, belong to another state or have another version.
@@ -161,7 +162,7 @@ UnsealedState unseal(std::string_view what, std::uint32_t oldest, std::uint32_t 
 /// Returns the content of a sealed state of exactly this version. Throws DataError if the bytes are damaged, belong to
 /// another state or have another version.
 std::string_view unseal(std::string_view what, std::uint32_t version, std::string_view sealed);
-/// Returns whether the bytes begin as those of seal() do: states from before it have formats of their own.
+/// Returns whether the bytes begin like those of seal(); older states have formats of their own.
 bool isSealed(std::string_view bytes);
 
 }  // namespace urban_nav_core

@@ -10,13 +10,13 @@
 
 namespace urban_nav_core {
 
-/// The plain structs that states are made of, for Archive. They stand here and not beside each struct, so that what
-/// only hands structs on needs no archive.
+/// Archive functions of the plain structs in types/. They are declared here rather than beside each struct, so that
+/// code which only passes the structs on does not depend on Archive.
 void archive(Archive& archive, Status& status);
 void archive(Archive& archive, PoseWithCovariance& value);
 void archive(Archive& archive, ConsideredConstant& value);
 void archive(Archive& archive, ConsideredConstants& values);
-/// Without the constants, which states of earlier versions lack.
+/// Reads or writes all members but the constants, which states of earlier versions lack.
 void archive(Archive& archive, RelativePose& value);
 void archive(Archive& archive, MotionInput& input);
 void archive(Archive& archive, SpecificForce& value);

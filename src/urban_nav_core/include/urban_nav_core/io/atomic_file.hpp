@@ -7,9 +7,9 @@
 
 namespace urban_nav_core {
 
-/// A path to write to beside the final one, for other libraries' writers (bags, pictures). commit() flushes the file to
-/// disk and renames it; without commit() (an exception, say) the destructor removes it, so that no partial file ever
-/// has the final name. A link stays, and what it points to is replaced. Throws UserError for a device or a pipe.
+/// Temporary path next to the final one, for writers of other libraries (bags, images). commit() flushes the file to
+/// disk and renames it; without commit(), after an exception for instance, the destructor removes it, so that no
+/// partial file has the final name. Symbolic links are followed. Throws UserError for a device or a pipe.
 class PartialFile {
  public:
   explicit PartialFile(const std::string& final_path);
@@ -18,10 +18,11 @@ class PartialFile {
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
 
-  /// `final_path` with ".part" before its extension, so that writers who look at the extension are content; or with the
-  /// suffix after it, so that what a killed process leaves is not taken for a whole file.
+  /// Returns `final_path` with ".part" before its extension, for writers that depend on the extension; or with the
+  /// suffix after it, so that a file left by a killed process is not mistaken for a complete one.
   const std::string& path() const { return path_; }
-  /// The writer has closed the file. Throws UserError naming the final path if it cannot be flushed or renamed.
+  /// Renames the file, which the writer has closed. Throws UserError naming the final path if it cannot be flushed or
+  /// renamed.
   void commit();
 
  private:
@@ -29,7 +30,7 @@ class PartialFile {
   bool committed_ = false;
 };
 
-/// A file that appears whole or not at all; a device or a pipe (/dev/stdout) is written as it is. Buffered; not
+/// File that is written completely or not at all; a device or a pipe (/dev/stdout) is written directly. Buffered; not
 /// thread-safe. Throws UserError naming the path and the system's reason.
 class AtomicFile {
  public:

@@ -9,25 +9,26 @@
 
 namespace urban_nav_core {
 
-/// Calibrations as files hold them. All functions throw UserError with file and line for what is missing, no number,
-/// not finite or not possible (a matrix that is no rotation, a size of no pixels, a right camera that is not to the
-/// right).
+/// Readers of calibration files. All functions throw UserError with file and line for values that are missing, not
+/// numeric, not finite or invalid (a matrix that is not a rotation, an image size of zero, a right camera that is not
+/// to the right).
 
 /// KITTI's calib.txt: lines `P0: ` and `P1: ` with 3x4 projection matrices, row by row (`P_rect_00: ` and `P_rect_01: `
-/// in the raw data's calib_cam_to_cam.txt), 2 and 3 for the colour cameras. It has no image size: the images tell.
+/// in the raw data's calib_cam_to_cam.txt), 2 and 3 for the colour cameras. The file has no image size; it is taken
+/// from the images.
 enum class KittiPair { Grey, Colour };
 StereoCamera readKittiCalibration(const std::string& path, int width, int height, KittiPair pair = KittiPair::Grey);
 StereoCamera parseKittiCalibration(std::string_view text, const std::string& name, int width, int height,
                                    KittiPair pair = KittiPair::Grey);
-/// As such a file holds it, P0 to P1, with the numbers that read back to the same focal lengths and centre.
+/// Returns the content of calib.txt, P0 and P1; focal lengths and centre are read back exactly.
 std::string printKittiCalibration(const StereoCamera& camera);
 
-/// camera_info YAML as ROS's camera_calibration_parsers reads and writes it.
+/// Reads camera_info YAML in the format of ROS's camera_calibration_parsers.
 CameraInfo readCameraInfo(const std::string& path);
 CameraInfo parseCameraInfo(std::string_view text, const std::string& name);
 std::string printCameraInfo(const CameraInfo& info, const std::string& camera_name);
 
-/// EuRoC's cam0/sensor.yaml: where the camera is on the body, and its raw calibration.
+/// EuRoC's cam0/sensor.yaml: pose of the camera on the body, and its raw calibration.
 struct EurocCamera {
   Pose T_body_camera;
   double rate_hz = 0.0;  ///< 0 where the file does not state it

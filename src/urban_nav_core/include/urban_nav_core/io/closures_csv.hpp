@@ -14,24 +14,24 @@ namespace urban_nav_core {
 /// verdict on it.
 struct ClosureRow {
   PoseRef a, b;                                ///< sessions by their names, or as numbers in the order of the inputs
-  double probability = 1.0;                    ///< that both times show the same place
+  double probability = 1.0;                    ///< probability that both times show the same place
   ClosureMethod method = ClosureMethod::None;  ///< column `kind`
   std::optional<ClosureVerdict> verdict;       ///< nullopt: no verdict yet
-  std::string reason;                          ///< of the verdict
+  std::string reason;                          ///< reason of the verdict
   std::optional<Pose> T_a_b;
   double sigma_m = 0.0, sigma_rad = 0.0;  ///< standard deviations of T_a_b, each axis; 0: not stated
-  double weight = 0.0;                    ///< in the pose graph
+  double weight = 0.0;                    ///< weight in the pose graph
   std::string where;                      ///< file and line, for messages: "closures.csv:12"
 };
 
 /// Reads the first five columns, which are required, and kind, x...qw, sigma_m and sigma_rad where the file has them.
 /// Verdict, reason and weight are results of an earlier run and are not read. Throws UserError naming file and line.
 std::vector<ClosureRow> readClosures(const std::string& path);
-/// Parses text with the content of such a file. `name`: takes the place of the path in `where` and in errors.
+/// Parses the content of such a file. `name` replaces the path in `where` and in errors.
 std::vector<ClosureRow> parseClosures(std::string_view text, const std::string& name);
 
-/// Prints rows with the header, the columns and the order of docs/files.md; `where` and the standard deviations are not
-/// among them.
+/// Prints header and rows with the columns of docs/files.md, in the given order; without `where` and the standard
+/// deviations.
 std::string printClosures(const std::vector<ClosureRow>& rows);
 
 }  // namespace urban_nav_core

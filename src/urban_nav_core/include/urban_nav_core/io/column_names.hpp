@@ -10,23 +10,22 @@
 
 namespace urban_nav_core {
 
-/// Quantities that columns of tables hold.
+/// Quantities of table columns.
 enum class Quantity { Stamp, X, Y, Z, Qx, Qy, Qz, Qw };
 
-/// Returns the quantity that a column's name states, in the spellings of common programs: `x`, `//X`, `Points:0`,
-/// `pose.position.x`, `p_RS_R_x [m]`, `q_RS_w []`, `field.header.stamp`, `%time`, `#timestamp [ns]`. Names of
-/// velocities, normals, covariances and colours state none.
+/// Returns the quantity named by a column header, in the spellings of common programs: `x`, `//X`, `Points:0`,
+/// `pose.position.x`, `p_RS_R_x [m]`, `q_RS_w []`, `field.header.stamp`, `%time`, `#timestamp [ns]`. nullopt for names
+/// of velocities, normals, covariances and colours.
 std::optional<Quantity> readQuantity(std::string_view name);
 
-/// Returns the number of the column that holds a quantity, the plainest name first; nullopt where none does.
+/// Returns the index of the column that holds a quantity, preferring the simplest name; nullopt if there is none.
 std::optional<std::size_t> findColumn(const std::vector<std::string>& header, Quantity quantity);
 
-/// Returns a name in lower case without quotes, comment marks, surrounding blanks and its unit in brackets, for
-/// comparisons.
+/// Returns a name for comparisons: in lower case, without quotes, comment marks, surrounding blanks and the unit in
+/// brackets.
 std::string plainName(std::string_view name);
 
-/// Returns the size in m or s of the unit in a name's brackets ("x [mm]": 0.001); nullopt where it states none that is
-/// known.
+/// Returns the size in m or s of the unit in a name's brackets ("x [mm]": 0.001); nullopt without a known unit.
 std::optional<double> readUnit(std::string_view name);
 
 }  // namespace urban_nav_core

@@ -9,25 +9,25 @@
 
 namespace urban_nav_core {
 
-/// A table of text with one header line, in every form that TextTable reads. Every row has as many cells as the header.
-/// Columns are found by their exact name, else by its letters alone (plainName()).
+/// Text table with one header line, in any form that TextTable reads. Every row has as many cells as the header.
+/// Columns are found by their exact name, else by plainName().
 class CsvTable {
  public:
-  /// Throw UserError with file and line.
+  /// Read a table. Throw UserError with file and line.
   static CsvTable read(const std::string& path);
   static CsvTable parse(std::string_view text, const std::string& name);
 
   std::size_t rows() const { return lines_.size(); }
   const std::vector<std::string>& header() const { return header_; }
   bool has(std::string_view column) const;
-  /// The place of a column; throws UserError naming the file where there is none of this name.
+  /// Returns the index of a column. Throws UserError naming the file if there is no column of this name.
   std::size_t column(std::string_view name) const;
 
   const std::string& text(std::size_t row, std::size_t column) const { return cells_[row * header_.size() + column]; }
-  /// Throw UserError with file, line and column where the cell is no finite number.
+  /// Return the number in a cell. Throw UserError with file, line and column if it is not a finite number.
   double number(std::size_t row, std::size_t column) const;
   std::int64_t integer(std::size_t row, std::size_t column) const;
-  /// "file.csv:12", for errors of the caller's own.
+  /// Returns "file.csv:12", for errors raised by the caller.
   std::string where(std::size_t row) const;
 
  private:
@@ -39,7 +39,7 @@ class CsvTable {
   std::vector<int> lines_;
 };
 
-/// One line with its end; cells that need it are quoted.
+/// Returns one line with its line end; cells are quoted where necessary.
 std::string printCsvRow(const std::vector<std::string>& cells);
 
 }  // namespace urban_nav_core

@@ -6,9 +6,9 @@
 
 namespace urban_nav_core {
 
-/// Returns what a file of another kind than expected is, by its content and never by its name, as it reads after the
+/// Returns a description of a file that is not of the expected kind, by its content and not its name, to follow the
 /// file's name: "is empty", "is a pointer of Git LFS, not the file itself", "is a vocabulary of ORB-SLAM2 (DBoW2)".
-/// Empty for content that is not recognised. `content`: the beginning of the file, a few hundred bytes or more.
+/// Empty for unknown content. `content`: the beginning of the file, a few hundred bytes or more.
 std::string describeForeignContent(std::string_view content);
 
 }  // namespace urban_nav_core

@@ -13,8 +13,8 @@
 
 namespace urban_nav_core {
 
-/// A pose graph as a g2o text file holds it, number for number, so that reading and writing changes none: the
-/// quaternions of files are not exactly of length one, and who normalises them does it in pose().
+/// Content of a g2o text file. All numbers are kept as written, so that reading and writing changes none: quaternions
+/// in files are not exactly of unit length and are normalised only by pose().
 struct G2oGraph {
   using Id = std::int64_t;
 
@@ -22,7 +22,7 @@ struct G2oGraph {
     Id id = 0;
     std::array<double, 7> values{};  ///< SE2: x, y, theta; SE3: x, y, z, qx, qy, qz, qw (m, rad)
   };
-  /// Measures pose `to` in the frame of pose `from`.
+  /// Measurement of pose `to` in the frame of pose `from`.
   struct Edge {
     Id from = 0, to = 0;
     std::array<double, 7> values{};  ///< as in Vertex
@@ -30,33 +30,33 @@ struct G2oGraph {
         information{};  ///< upper triangle, row by row; SE2: x, y, theta, 6 numbers; SE3: x, y, z, qx, qy, qz
   };
 
-  /// A landmark: VERTEX_XY, VERTEX_TRACKXYZ. `values`: x, y or x, y, z (m).
+  /// Landmark: VERTEX_XY, VERTEX_TRACKXYZ. `values`: x, y or x, y, z (m).
   struct Point {
     Id id = 0;
     std::array<double, 3> values{};
   };
-  /// Measures a landmark in the frame of a pose, or of a sensor mounted on it: EDGE_SE2_XY, EDGE_SE3_TRACKXYZ.
+  /// Measurement of a landmark in the frame of a pose or of a sensor mounted on it: EDGE_SE2_XY, EDGE_SE3_TRACKXYZ.
   struct PointEdge {
     Id from = 0, to = 0;                  ///< pose, landmark
-    Id parameter = 0;                     ///< SE3: of the Offset
+    Id parameter = 0;                     ///< SE3: id of the Offset
     std::array<double, 3> values{};       ///< as in Point
     std::array<double, 6> information{};  ///< upper triangle, row by row: 3 numbers in the plane, 6 in space
   };
-  /// Measures one pose in the frame of the graph: EDGE_PRIOR_SE2, EDGE_PRIOR_SE2_XY, EDGE_SE3_PRIOR.
+  /// Measurement of one pose in the frame of the graph: EDGE_PRIOR_SE2, EDGE_PRIOR_SE2_XY, EDGE_SE3_PRIOR.
   struct Prior {
     Id vertex = 0;
-    Id parameter = 0;                ///< SE3: of the Offset
-    bool position = false;           ///< EDGE_PRIOR_SE2_XY: x and y alone; `values` has 2 numbers then, `information` 3
+    Id parameter = 0;                ///< SE3: id of the Offset
+    bool position = false;           ///< EDGE_PRIOR_SE2_XY: x and y only; `values` has 2 numbers then, `information` 3
     std::array<double, 7> values{};  ///< as in Vertex
     std::array<double, 21> information{};  ///< as in Edge
   };
-  /// PARAMS_SE3OFFSET: the pose of a sensor in the frame of the vertex that carries it.
+  /// PARAMS_SE3OFFSET: pose of a sensor in the frame of its vertex.
   struct Offset {
     Id id = 0;
     std::array<double, 7> values{};
   };
 
-  int dimension = 3;  ///< 2 (SE2) or 3 (SE3:QUAT), one for the whole file
+  int dimension = 3;  ///< 2 (SE2) or 3 (SE3:QUAT), for the whole file
   std::vector<Vertex> vertices;
   std::vector<Edge> edges;
   std::vector<Id> fixed;
@@ -64,10 +64,10 @@ struct G2oGraph {
   std::vector<PointEdge> point_edges;
   std::vector<Prior> priors;
   std::vector<Offset> offsets;
-  std::vector<std::string> others;  ///< lines with other tags and comments, as they were
+  std::vector<std::string> others;  ///< lines with other tags and comments, unchanged
 
-  /// What stands in which line, as an index into the vectors above. Elements appended to those vectors later need no
-  /// line: they are written at the end, vertices first. Who removes elements clears `lines`.
+  /// Element of each line, as an index into the vectors above. Elements appended later need no line: they are written
+  /// at the end, vertices first. Clear `lines` after removing elements.
   enum class Kind { Vertex, Point, Offset, Edge, PointEdge, Prior, Fix, Other };
   struct Line {
     Kind kind;
@@ -75,7 +75,7 @@ struct G2oGraph {
   };
   std::vector<Line> lines;
 
-  /// In 2D the pose has z = 0 and turns about z. Quaternions are normalised.
+  /// Returns the pose of a vertex; in 2D with z = 0 and a rotation about z. Quaternions are normalised.
   Pose pose(const Vertex& vertex) const;
   Pose pose(const Edge& edge) const;
   Pose pose(const Prior& prior) const;
@@ -83,28 +83,28 @@ struct G2oGraph {
   void setPose(Vertex& vertex, const Pose& pose) const;
 };
 
-/// The symmetric matrix of an upper triangle of the first n (n + 1) / 2 numbers, and back.
+/// Return the symmetric matrix of an upper triangle, given as n (n + 1) / 2 numbers, and the inverse conversion.
 Eigen::MatrixXd g2oInformation(const G2oGraph::Edge& edge, int dimension);
 void setG2oInformation(G2oGraph::Edge& edge, const Eigen::MatrixXd& information);
-/// The information of (rho, phi) in `from` (the convention of everything that leaves a stage) for that of g2o's error,
-/// which is the translation and the quaternion's vector of Z^-1 X in the frame `to`, at a small error; and back. 6x6.
+/// Convert the 6x6 information between (rho, phi) in `from` (docs/conventions.md) and the error of g2o: translation and
+/// vector part of the quaternion of Z^-1 X, in the frame `to`. To first order in the error.
 Matrix6d boxFromG2oInformation(const Matrix6d& g2o, const Pose& T_from_to);
 Matrix6d g2oFromBoxInformation(const Matrix6d& box, const Pose& T_from_to);
 
-/// What becomes of lines whose tag is unknown. Comments, from # to the end of a line, are never refused; one after
+/// Handling of lines with unknown tags. Comments, from # to the end of a line, are always accepted; a comment after
 /// numbers is dropped.
 enum class UnknownTags { Keep, Refuse };
 
-/// A byte order mark at the begin of the text is skipped. Throw UserError with file and line for: a wrong number of
-/// columns, numbers that are not finite, quaternions not of length one to 1 %, doubled vertices, SE2 and SE3 in one
-/// file, and unknown tags if they are refused. Edges may name vertices that have no line.
+/// Read a graph. A byte order mark is skipped. Throw UserError with file and line for a wrong number of columns,
+/// numbers that are not finite, quaternions that are not of unit length to 1 %, duplicate vertices, SE2 and SE3 in one
+/// file, and unknown tags if they are refused. Edges may refer to vertices without a line.
 G2oGraph readG2o(const std::string& path, UnknownTags unknown = UnknownTags::Keep);
 G2oGraph parseG2o(std::string_view text, const std::string& name, UnknownTags unknown = UnknownTags::Keep);
 
-/// The lines in the order in which they are written: graph.lines, then what has no line.
+/// Returns the lines in the order of writing: graph.lines, then elements without a line.
 std::vector<G2oGraph::Line> toLines(const G2oGraph& graph);
 std::string printG2o(const G2oGraph& graph);
-/// Tags of `graph.others` and how often each occurs, in the order of their first line; comments are not counted.
+/// Returns the tags of `graph.others` with their counts, in the order of first occurrence, without comments.
 std::vector<std::pair<std::string, std::size_t>> unknownTags(const G2oGraph& graph);
 void writeG2o(const std::string& path, const G2oGraph& graph);
 

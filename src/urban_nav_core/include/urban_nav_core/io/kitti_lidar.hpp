@@ -9,8 +9,8 @@
 
 namespace urban_nav_core {
 
-/// Mounting of the LiDAR in KITTI's files. All functions throw UserError with file and line for rows with too
-/// few or too many numbers, numbers that are not finite, and matrices that are no rotation to 1e-3.
+/// Mounting of the LiDAR in KITTI's files. All functions throw UserError with file and line for rows with too few or
+/// too many numbers, numbers that are not finite, and matrices that are not rotations to 1e-3.
 
 /// Returns T_camera_lidar of calib.txt, of the rectified left camera: the row `Tr: ` (`Tr_velo_to_cam: `,
 /// `Tr_velo_cam: `) with a 3x4 matrix, row by row; nullopt without such a row.

@@ -9,25 +9,25 @@
 
 namespace urban_nav_core {
 
-/// The one way in which a number gets into a file: the shortest text that reads back as the same double, whatever the
-/// locale. The caller sees to it that the value is finite; NaN and infinities print as "nan", "inf", "-inf", which
-/// parseNumber refuses.
+/// Returns the shortest text that is read back as the same double, independent of the locale. Used for all numbers in
+/// files. The caller ensures that the value is finite; NaN and infinities print as "nan", "inf", "-inf", which
+/// parseNumber() rejects.
 std::string printNumber(double value);
-/// The same for single precision: the shortest text that reads back as the same float.
+/// Returns the shortest text that is read back as the same float, independent of the locale.
 std::string printNumber(float value);
 void appendNumber(std::string& text, double value);
 
-/// A decimal number that fills the whole text ("-1.5", "+2e-3", ".5"), whatever the locale. Empty for anything else:
-/// blanks, hexadecimal, "nan", "inf", values beyond a double's range. A value too small for a double is zero.
+/// Parses a decimal number that fills the whole text ("-1.5", "+2e-3", ".5"), independent of the locale. Empty for
+/// anything else: blanks, hexadecimal, "nan", "inf", values beyond the range of double. Underflow gives zero.
 std::optional<double> parseNumber(std::string_view text);
-/// A whole number that fills the text and fits.
+/// Parses an integer that fills the whole text; empty on overflow.
 std::optional<std::int64_t> parseInteger(std::string_view text);
 
-/// The pieces of a line between blanks and tabs (a trailing \r counts as blank); views into `line`.
+/// Splits a line at blanks and tabs (a trailing \r counts as blank); returns views of `line`.
 std::vector<std::string_view> splitBlanks(std::string_view line);
-/// The pieces between separators, empty ones included, without blanks around them: n separators give n + 1 pieces.
+/// Splits at separators and trims each part; empty parts are kept, so n separators give n + 1 parts.
 std::vector<std::string_view> splitAt(std::string_view line, char separator);
-/// Without blanks, tabs and \r at its ends.
+/// Returns the text without blanks, tabs and \r at its ends.
 std::string_view trimmed(std::string_view text);
 
 }  // namespace urban_nav_core

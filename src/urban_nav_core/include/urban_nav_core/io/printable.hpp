@@ -6,10 +6,9 @@
 
 namespace urban_nav_core {
 
-/// Returns text that may hold names of other people's files (topics, frames, paths) as a terminal may show it: control
-/// characters (ECMA-48, which can retitle a window, move the cursor or type), marks that turn the direction of writing,
-/// and bytes that are no UTF-8 become "\x1b" and the like. Text without them is returned as it is. `keep`: control
-/// characters that stay, such as "\n".
+/// Escapes text from external files (topics, frames, paths) for a terminal: control characters (ECMA-48, which can
+/// retitle a window, move the cursor or type), bidirectional marks, and bytes that are not UTF-8 become "\x1b" and
+/// similar. Other text is returned unchanged. `keep`: control characters that are not escaped, such as "\n".
 std::string printable(std::string_view text, std::string_view keep = "");
 
 }  // namespace urban_nav_core

@@ -11,16 +11,16 @@
 
 namespace urban_nav_core {
 
-/// Calibrations of stereo cameras as calibration programs write them. All functions throw UserError with file and line
-/// for what is missing, no number, not finite or not possible.
+/// Calibrations of stereo cameras in the formats of calibration programs. All functions throw UserError with file and
+/// line for values that are missing, not numeric, not finite or invalid.
 
 /// Left and right camera, with the rectification of the pair in R and P.
 using CameraPair = std::pair<CameraInfo, CameraInfo>;
 
-/// Kinds of calibration files, recognised by their content.
+/// Formats of calibration files, recognised by content.
 enum class CalibrationKind {
   CameraInfo,  ///< camera_info YAML of ROS, one camera
-  Euroc,       ///< sensor.yaml of EuRoC, one camera with its place on the body
+  Euroc,       ///< sensor.yaml of EuRoC, one camera with its pose on the body
   Camchain,    ///< camchain.yaml of Kalibr, both cameras
   Ost,         ///< ost.txt of camera_calibration, one camera or both
   Other        ///< such as KITTI's calib.txt
@@ -36,8 +36,7 @@ std::vector<CameraInfo> parseOst(std::string_view text, const std::string& name)
 /// Returns the first two cameras of a camchain.yaml (pinhole; radtan, equidistant or none).
 CameraPair parseCamchain(std::string_view text, const std::string& name);
 
-/// Returns two raw cameras with the rectification that their poses call for; pairs that are rectified already stay as
-/// they are.
+/// Returns two raw cameras with the rectification for their relative pose; rectified pairs are returned unchanged.
 CameraPair rectifiedPair(const CameraInfo& left, const CameraInfo& right, const Pose& T_right_left,
                          const std::string& where);
 

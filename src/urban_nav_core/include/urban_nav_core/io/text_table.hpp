@@ -10,46 +10,46 @@
 
 namespace urban_nav_core {
 
-/// Row of a text table; views are valid during the call that hands them over.
+/// Row of a text table; the views are valid during the callback only.
 struct TableRow {
   int line = 0;                         ///< from 1
   std::vector<std::string_view> cells;  ///< without quotes and surrounding blanks; numbers with a decimal point
 };
 
-/// A table of text as common programs write it: the one reader of trajectories, clouds, closures, image lists, stamps
-/// and tables of devices. Cells are separated by commas, semicolons, tabs or blanks, whichever fits the first rows, and
-/// may be in double quotes ("" is a quote, no line breaks); `sep=;` in the first line is followed. Numbers may have
-/// decimal commas in quotes or where commas are no separator. Lines that begin with #, % or // are comments, as is what
-/// follows a # in a row separated by blanks; the header is the last comment, or the first row, before all numbers,
-/// holds none itself, and has as many cells as the rows have. One empty cell at the end of a row (a trailing separator)
-/// is not one.
+/// Reader of text tables as written by common programs, used for trajectories, clouds, closures, image lists, stamps
+/// and device tables. Cells are separated by commas, semicolons, tabs or blanks, whichever fits the first rows, and may
+/// be in double quotes ("" is a quote, no line breaks); `sep=;` in the first line is respected. Numbers may have
+/// decimal commas in quotes or where commas are not separators. Lines that begin with #, % or // are comments, as is
+/// the text after a # in a row separated by blanks. The header is the last comment or the first row before all numbers;
+/// it contains no number and has as many cells as the rows. One empty cell at the end of a row (a trailing separator)
+/// is ignored.
 class TextTable {
  public:
-  /// `text`: UTF-8, outlives the table. `name`: the path, for errors.
+  /// `text`: UTF-8, must outlive the table. `name`: path, for errors.
   TextTable(std::string_view text, std::string name);
 
-  /// The names of columns as written; empty without a header.
+  /// Returns the column names as written; empty without a header.
   const std::vector<std::string>& header() const { return header_; }
-  /// Whether the header is a comment, and so perhaps none: three words above three columns.
+  /// Returns whether the header was a comment and is therefore uncertain: any three words above three columns.
   bool headerIsComment() const { return header_is_comment_; }
-  /// "file.csv:1", for errors that concern the header.
+  /// Returns "file.csv:1", for errors that concern the header.
   std::string whereHeader() const;
-  /// Makes the first row the header where none was found: for tables that always have one.
+  /// Uses the first row as header if none was found; for tables that always have one.
   void requireHeader();
-  /// The number of cells that most of the first rows have; 0 for a table without rows.
+  /// Returns the most frequent number of cells in the first rows; 0 for a table without rows.
   std::size_t width() const { return width_; }
 
-  /// Calls `row` for each row but the header, in order. Throws UserError with file and line for a quote that does not
-  /// end.
+  /// Calls `row` for each row except the header, in order. Throws UserError with file and line for an unterminated
+  /// quote.
   void forEachRow(const std::function<void(const TableRow& row)>& row) const;
-  /// "file.csv:12", for errors of the caller's own.
+  /// Returns "file.csv:12", for errors raised by the caller.
   std::string where(const TableRow& row) const;
 
  private:
   void findHeader();
 
   std::string_view text_;
-  std::string_view head_;  // from which the format is determined
+  std::string_view head_;  // from which the format is detected
   std::string name_;
   char separator_ = ' ';
   bool has_decimal_commas_ = false;
@@ -59,10 +59,10 @@ class TextTable {
   bool header_is_comment_ = false;
 };
 
-/// Returns the number that fills a cell, also "nan", "inf" and their like; nullopt for anything else.
+/// Returns the number that fills a cell, including "nan" and "inf"; nullopt for anything else.
 std::optional<double> parseCell(std::string_view cell);
 
-/// Returns text as it can be shown in an error: in quotes, of bounded length, printable.
+/// Returns text for an error message: quoted, shortened, printable.
 std::string quotedCell(std::string_view cell);
 
 }  // namespace urban_nav_core

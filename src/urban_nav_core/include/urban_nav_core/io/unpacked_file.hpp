@@ -5,8 +5,8 @@
 
 namespace urban_nav_core {
 
-/// Returns the bytes of a file, decompressed if it is one of gzip. Throws UserError as readBytes() does, and for a
-/// damaged file or one that holds more than largestPiece().
+/// Returns the bytes of a file, decompressed if it is in gzip format. Throws UserError as readBytes() does, and for a
+/// damaged file or one that decompresses to more than largestPiece().
 std::string readUnpacked(const std::string& path);
 
 }  // namespace urban_nav_core

@@ -8,27 +8,26 @@
 
 namespace urban_nav_core {
 
-/// A YAML document as a plain tree; every node knows its line. The only door to yaml-cpp, so that no other file
-/// includes it.
+/// YAML document as a plain tree; every node has its line number. Wraps yaml-cpp, which no other file includes.
 struct YamlNode {
   enum class Kind { Null, Scalar, List, Map };
   Kind kind = Kind::Null;
   std::string scalar;
   std::vector<YamlNode> list;
-  std::vector<std::pair<std::string, YamlNode>> map;  ///< in the order of the file, doubled keys included
+  std::vector<std::pair<std::string, YamlNode>> map;  ///< in file order, including duplicate keys
   int line = 0;                                       ///< from 1
 
-  /// The value of the first such key of a map, or nullptr.
+  /// Returns the value of the first such key of a map, or nullptr.
   const YamlNode* find(std::string_view key) const;
 };
 
-/// Throws UserError with file and line for what is not YAML, and for trees deeper than 32 or of more than a million
-/// nodes.
+/// Reads a document. Throws UserError with file and line for invalid YAML, and for trees deeper than 32 or with more
+/// than a million nodes.
 YamlNode readYaml(const std::string& path);
 YamlNode parseYaml(std::string_view text, const std::string& name);
 
-/// The value below `key`, a number, or several in a list. Throws UserError with file, line and key where it is missing,
-/// no number, not finite, or of another length.
+/// Return the value of `key`: a node, a number, or a list of numbers. Throw UserError with file, line and key if it is
+/// missing, not numeric, not finite, or of another length.
 const YamlNode& require(const YamlNode& node, std::string_view key, const std::string& file);
 double requireNumber(const YamlNode& node, std::string_view key, const std::string& file);
 std::vector<double> requireNumbers(const YamlNode& node, std::string_view key, std::size_t count,

@@ -3,9 +3,9 @@
 
 namespace urban_nav_core {
 
-/// Returns an echo of an LMS291 without the influence of range and incidence (0...255): near by, the optics of the
-/// device lose light; far away it falls with the distance; matt surfaces follow Lambert's law. `range`: m; `cosine`: of
-/// the angle between beam and normal; 1 where it is unknown.
+/// Returns the intensity of an LMS291 echo (0...255) corrected for range and incidence angle: the optics lose light at
+/// short range, intensity falls with distance at long range, matt surfaces follow Lambert's law. `range`: m. `cosine`:
+/// of the angle between beam and normal; 1 if unknown.
 float normaliseReflectance(float raw, float range, float cosine);
 
 }  // namespace urban_nav_core

@@ -11,8 +11,8 @@
 
 namespace urban_nav_core {
 
-/// While it lives, forEach and sumInOrder use at most so many threads in this process; 0: as many as the machine has.
-/// Their results do not depend on it. This header and its source are the only places that know of TBB.
+/// Limits forEach() and sumInOrder() in this process to a number of threads during its lifetime; 0: all of the machine.
+/// Results do not depend on it. Only this header and its source depend on TBB.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
@@ -26,13 +26,13 @@ class ThreadLimit {
 };
 
 namespace detail {
-/// Calls work(part) for every part in 0...parts - 1, on several threads, each part whole on one of them. The first
-/// exception, by the number of its part, is thrown again when all that was begun has ended.
+/// Calls work(part) for every part in 0...parts - 1, on several threads, each part on one of them. After all started
+/// parts have ended, rethrows the exception of the part with the lowest number.
 void forEachPart(std::size_t parts, const std::function<void(std::size_t)>& work);
 }  // namespace detail
 
-/// Calls body(i) for i in 0...count - 1 in pieces of `grain` neighbours, pieces in any order and at once: body(i) may
-/// write to what is i's alone. What it throws comes out, the one of the first piece where there are several.
+/// Calls body(i) for i in 0...count - 1, in blocks of `grain` consecutive indices, which run concurrently and in any
+/// order: body(i) may write only to data of i. Rethrows the exception of the first block with one.
 template <typename Body>
 void forEach(std::size_t count, std::size_t grain, const Body& body) {
   assert(grain > 0);
@@ -43,8 +43,8 @@ void forEach(std::size_t count, std::size_t grain, const Body& body) {
   });
 }
 
-/// The sum of term(0)...term(count - 1), added to `zero`. Pieces of `grain` neighbours are summed from left to right,
-/// then the pieces from left to right: the partition is part of the result, the number of threads is not.
+/// Returns `zero` plus the sum of term(0)...term(count - 1). Blocks of `grain` consecutive terms are summed from left
+/// to right, then the blocks from left to right: the result depends on `grain`, not on the number of threads.
 template <typename Value, typename Term>
 Value sumInOrder(std::size_t count, std::size_t grain, const Value& zero, const Term& term) {
   assert(grain > 0);

@@ -7,13 +7,13 @@
 
 namespace urban_nav_core {
 
-/// A value that the user assigns to a key. Text (YAML, --set) is read by the type of its row; values of the parameter
+/// Value that the user assigns to a key. Text (YAML, --set) is parsed by the type of its row; values of the parameter
 /// server are typed.
 struct Assignment {
   std::string stage;  ///< "swf_vo"; "" for keys without a stage
   std::string name;   ///< "window"
   ParameterValue value;
-  bool is_text = true;  ///< `value` is a string that has still to be read by the row's type
+  bool is_text = true;  ///< `value` is a string that is still to be parsed by the row's type
   std::string where;    ///< "config.yaml:12", "--set swf_vo.window=25", "/swf_vo/window"
 };
 

@@ -8,19 +8,22 @@
 
 namespace urban_nav_core {
 
-/// A table of parameters as texts show it (Table::stage, Table::rows).
+/// Parameter table for documents (Table::stage, Table::rows).
 struct DocumentedTable {
   std::string stage;
   std::vector<RowInfo> rows;
 };
 
-/// Writes what a package's texts say of its parameters: the tables between their marks in README.md, and
-/// config/STAGE.yaml for each stage that has such a file. Throws UserError naming the text that is missing, or lacks
-/// its marks.
+/// Returns the name of the file in a package's folder that holds its parameter tables: PARAMETERS.md if it exists,
+/// otherwise README.md.
+std::string findParameterDocument(const std::string& package);
+
+/// Writes the parameters into a package's documents: the tables between their markers in findParameterDocument(), and
+/// config/STAGE.yaml of each stage that has one. Throws UserError naming the file that is missing or has no markers.
 void writeDocuments(const std::string& package, const std::vector<DocumentedTable>& tables);
 
-/// The main function of a package's program for that: `--write FOLDER_OF_THE_PACKAGE`, or `--markdown` to print the
-/// tables.
+/// Main function of the program that calls writeDocuments(): `--write FOLDER_OF_THE_PACKAGE`, or `--markdown` to print
+/// the tables.
 int documentParameters(int argc, char** argv, const std::vector<DocumentedTable>& tables);
 
 }  // namespace urban_nav_core

@@ -8,20 +8,20 @@
 
 namespace urban_nav_core {
 
-/// config/<pkg>.yaml: the rows at their defaults, each below a comment that says what it does, what is allowed and
-/// where it comes from. readParameters gives back what was printed.
+/// Returns config/<pkg>.yaml: the rows at their defaults, each below a comment with its meaning, range and source.
+/// readParameters() reads it back unchanged.
 std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows);
-/// The same with the values in force and their origins.
+/// Returns YAML with the current values and their origins.
 std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows, const std::vector<Setting>& settings);
 
-/// The README's table: name, default, unit, allowed, what it does, source. The rows for experts are in a second table,
-/// which a browser folds.
+/// Returns the table of the README: name, default, unit, range, meaning, source. Rows for experts are in a second,
+/// collapsed table.
 std::string printMarkdown(const std::string& stage, const std::vector<RowInfo>& rows);
 
-/// The part of --help: the parameters for users, each with its value, where that came from, and what it does.
+/// Returns the section of --help: the parameters for users, each with its value, origin and meaning.
 std::string printHelp(const std::string& stage, const std::vector<RowInfo>& rows, const std::vector<Setting>& settings);
 
-/// The part of --help-all: every parameter, also with what is allowed and its source.
+/// Returns the section of --help-all: every parameter, also with range and source.
 std::string printHelpForExperts(const std::string& stage, const std::vector<RowInfo>& rows,
                                 const std::vector<Setting>& settings);
 

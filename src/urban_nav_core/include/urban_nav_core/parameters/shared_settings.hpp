@@ -8,8 +8,8 @@
 
 namespace urban_nav_core {
 
-/// Returns a sentence for each of `names`, parameters that several stages have, to which two stages are given different
-/// values. `settings`: of each stage.
+/// Returns a message for each of `names`, parameters common to several stages, that has different values in two stages.
+/// `settings`: of each stage.
 std::vector<std::string> differingValues(const std::vector<const std::vector<Setting>*>& settings,
                                          const std::vector<std::string>& names);
 

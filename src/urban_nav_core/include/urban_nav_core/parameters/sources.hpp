@@ -12,29 +12,30 @@
 
 namespace urban_nav_core {
 
-/// A YAML file: a map of stages, each a map of rows; rows without a stage stand at the top level. Throws UserError with
-/// file and line for what is no such map and for a key that stands twice.
+/// Reads a YAML file: a map of stages, each a map of rows; rows without a stage are at the top level. Throws UserError
+/// with file and line for any other structure and for a duplicate key.
 std::vector<Assignment> readParameters(const std::string& path);
-/// The same from text; `name` stands for the path in errors.
+/// Parses the content of such a file; `name` replaces the path in errors.
 std::vector<Assignment> parseParameters(std::string_view text, const std::string& name);
 
-/// "swf_vo.window=25" as given to --set. Throws UserError where there is no key or no "=".
+/// Parses "swf_vo.window=25", the argument of --set. Throws UserError without a key or "=".
 Assignment parseSetting(const std::string& text);
 
-/// What a nodelet found below its private name space: `values` by row name, e.g. from ros::NodeHandle::getParam.
+/// Returns the assignments of a nodelet's private namespace: `values` by row name, e.g. from ros::NodeHandle::getParam.
 std::vector<Assignment> serverParameters(const std::string& stage, const std::map<std::string, ParameterValue>& values,
                                          const std::string& name_space);
 
-/// A value as it is in force, and where it came from: "default" or Assignment::where.
+/// Current value of a parameter, and its origin: "default" or Assignment::where.
 struct Setting {
   std::string stage, name;
   ParameterValue value;
   std::string origin;
 };
 
-/// The settings of one stage: defaults, overridden by the assignments to this stage in their order (so pass YAML first,
-/// then the parameter server, then --set). Throws UserError for an unknown key, naming the nearest known one, and for a
-/// value of the wrong type or out of range. Assignments to other stages are skipped: refuseUnknownStages sees to them.
+/// Returns the settings of one stage: defaults, overridden by the assignments to this stage in their order (pass YAML
+/// first, then the parameter server, then --set). Throws UserError for an unknown key, suggesting the most similar one,
+/// and for a value of the wrong type or out of range. Assignments to other stages are skipped; see
+/// refuseUnknownStages().
 std::vector<Setting> resolve(const std::string& stage, const std::vector<RowInfo>& rows,
                              const std::vector<Assignment>& assignments);
 
@@ -46,7 +47,7 @@ template <typename Parameters>
 struct Loaded {
   Parameters parameters;
   std::vector<Setting> settings;      ///< in the order of the table
-  std::vector<std::string> warnings;  ///< of old names, for the user
+  std::vector<std::string> warnings;  ///< for the user, about old names
 };
 
 template <typename Parameters>

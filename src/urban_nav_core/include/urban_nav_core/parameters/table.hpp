@@ -8,8 +8,8 @@
 
 namespace urban_nav_core {
 
-/// A value of a parameter: bool, whole number, number, or a word out of a list. The constructors keep `25` a whole
-/// number and "schur" a word on compilers whose std::variant would make a bool of either.
+/// Value of a parameter: bool, integer, number, or a word from a list. The constructors keep `25` an integer and
+/// "schur" a word with compilers whose std::variant would convert either to bool.
 struct ParameterValue : std::variant<bool, std::int64_t, double, std::string> {
   using Base = std::variant<bool, std::int64_t, double, std::string>;
   ParameterValue() : Base(false) {}
@@ -23,31 +23,31 @@ struct ParameterValue : std::variant<bool, std::int64_t, double, std::string> {
   const Base& base() const { return *this; }
 };
 
-/// Audience of a parameter. `--help` lists those of users, `--help-all` every one.
+/// Audience of a parameter. `--help` lists those for users, `--help-all` every one.
 enum class Audience {
   Users,
   Experts,  ///< thresholds and sizes inside an algorithm
 };
 
-/// One row of a stage's table: all there is to say about a parameter, said once. From it come YAML, the parameter
-/// server, --set, range checks, --help, the README's table and config/<pkg>.yaml.
+/// Row of a stage's parameter table, the only description of a parameter. YAML, the parameter server, --set, range
+/// checks, --help, the README's table and config/<pkg>.yaml are derived from it.
 template <typename Parameters>
 struct Row {
-  std::string name;  ///< "window"; with the stage in front it is "swf_vo.window"
+  std::string name;  ///< "window"; prefixed by its stage it is "swf_vo.window"
   std::variant<bool Parameters::*, int Parameters::*, double Parameters::*, std::string Parameters::*> member;
-  std::string unit;                          ///< "frames", "px", "" for none
-  ParameterValue standard;                   ///< the default: written here and nowhere else
-  ParameterValue low = false, high = false;  ///< allowed range, ends included (numbers only)
+  std::string unit;                          ///< "frames", "px"; "" for dimensionless
+  ParameterValue standard;                   ///< default, defined only here
+  ParameterValue low = false, high = false;  ///< range, inclusive (numbers only)
   std::vector<std::string> words;            ///< allowed words (words only; empty: any text)
   std::string sentence;                      ///< what it does
-  std::string source;                        ///< `paper 2.4`, publication, `docs/...` or bench that measured it
-  std::vector<std::string> old_names = {};   ///< still understood, see old_names.hpp: "queue", or "loop_metric.queue"
+  std::string source;                        ///< `paper 2.4`, publication, `docs/...` or the bench that measured it
+  std::vector<std::string> old_names = {};   ///< accepted as well, see old_names.hpp: "queue", or "loop_metric.queue"
   Audience audience = Audience::Users;
 };
 
 enum class ParameterType { Bool, Integer, Number, Word };
 
-/// A row without the type of its struct: what printing, checking and loading need.
+/// Row without the type of its struct, for printing, checking and loading.
 struct RowInfo {
   std::string name, unit, sentence, source;
   ParameterType type = ParameterType::Bool;
@@ -57,21 +57,20 @@ struct RowInfo {
   Audience audience = Audience::Users;
 };
 
-/// "1...100000 (frames)" or "numbers 0...1 (px)" or "schur, delete" or "true, false".
+/// Returns "1...100000 (frames)", "numbers 0...1 (px)", "schur, delete" or "true, false".
 std::string allowed(const RowInfo& row);
-/// Does the value have the row's type (a whole number serves as a number) and lie within its range? NaN never does.
+/// Returns whether the value has the row's type (an integer is valid for a number) and is within its range. NaN is not.
 bool isAllowed(const RowInfo& row, const ParameterValue& value);
-/// As YAML writes it: "true", "25", "0.3", "schur"; shortest form that reads back exactly. Text that YAML would take
-/// for something else is quoted.
+/// Returns the value in YAML: "true", "25", "0.3", "schur"; the shortest form that is read back exactly. Text that YAML
+/// would parse as another type is quoted.
 std::string printValue(const ParameterValue& value);
-/// "swf_vo.window"; the name alone where the stage is "" (keys of the command itself, such as memory_mb).
+/// Returns "swf_vo.window"; the name only if the stage is "" (keys of the command itself, such as memory_mb).
 std::string fullName(const std::string& stage, const std::string& name);
 
-/// Asserts what a programmer owes a table: different names, defaults of the right type and within their ranges, a
-/// sentence in each row.
+/// Asserts that a table is valid: unique names, defaults of the right type and within range, a description in each row.
 void assertSound(const std::string& stage, const std::vector<RowInfo>& rows);
 
-/// The rows of one stage. Parameters is a plain struct whose members have no initialisers. Immutable, so thread-safe.
+/// Rows of one stage. Parameters is a plain struct whose members have no initialisers. Immutable, hence thread-safe.
 template <typename Parameters>
 class Table {
  public:
@@ -79,11 +78,11 @@ class Table {
 
   const std::string& stage() const { return stage_; }
   const std::vector<RowInfo>& rows() const { return infos_; }
-  /// Sets every member to its default: what the constructor of Parameters calls.
+  /// Sets every member to its default; called by the constructor of Parameters.
   void setDefaults(Parameters& parameters) const;
-  /// The caller has checked the name (sources.hpp does): an unknown one is an assertion.
+  /// Requires that the caller has checked the name, as sources.hpp does; asserts on an unknown one.
   ParameterValue get(const Parameters& parameters, const std::string& name) const;
-  /// The caller has checked name and value (sources.hpp does).
+  /// Requires that the caller has checked name and value, as sources.hpp does.
   void set(Parameters& parameters, const std::string& name, const ParameterValue& value) const;
 
  private:

@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-/// The bodies of Table's templates; included by table.hpp alone.
+/// Bodies of Table's templates; included only by table.hpp.
 namespace urban_nav_core {
 namespace detail {
 

@@ -9,41 +9,40 @@
 
 namespace urban_nav_core {
 
-/// An unbiased, normally distributed measurement of a constant, independent of all others.
+/// Unbiased, normally distributed, independent measurement of a constant.
 struct ConstantMeasurement {
   Interval interval;
   double value = 0.0, sigma = 1.0;  ///< sigma > 0
 };
 
-/// Detects that a constant has changed, from measurements in order of time, by the two-sided cumulative sum (Page 1954)
-/// over their recursive residuals (Brown, Durbin and Evans 1975):
+/// Detects changes of a constant from measurements in order of time, by the two-sided cumulative sum (Page 1954) of
+/// their recursive residuals (Brown, Durbin and Evans 1975):
 ///   w_k = (y_k - m) / sqrt(sigma_k^2 + s^2),  S+ = max(0, S+ + w_k - 1/2),  S- = max(0, S- - w_k - 1/2),
 /// with m and s the weighted mean of the segment so far and its standard deviation. While the constant does not change,
-/// w_k are independent and standard normal, whatever the constant is and however the sigmas differ.
+/// the w_k are independent and standard normal for any value of the constant and any sigmas.
 ///
-/// An alarm ends a segment where the means before and after differ by most standard deviations, which is where the
-/// likelihood of one change is largest (Hinkley 1970). There a new segment begins, with a prior of its own. A
-/// change further back than `recent` measurements is dated there. Allocates at construction and for an alarm only. Not
-/// thread-safe.
+/// An alarm ends a segment where the means before and after differ by the most standard deviations, the maximum
+/// likelihood time of a single change (Hinkley 1970). A new segment with its own prior begins there. A change more than
+/// `recent` measurements ago is dated there. Allocates at construction and for an alarm only. Not thread-safe.
 class ChangeDetector {
  public:
   static constexpr std::size_t kRecent = 2048;
-  /// `false_alarm`: probability of an alarm in `horizon` measurements of a constant that does not change; in (0, 1).
+  /// `false_alarm`: probability, in (0, 1), of an alarm within `horizon` measurements of an unchanged constant.
   ChangeDetector(double false_alarm, std::int64_t horizon, std::size_t recent = kRecent);
 
-  /// Adds a measurement. Values that are not finite and sigmas that are not above 0 are ignored. Returns whether it
+  /// Adds a measurement. Values that are not finite and sigmas that are not positive are ignored. Returns whether it
   /// raises an alarm.
   bool add(const ConstantMeasurement& measurement);
   /// Returns what add() would, and changes nothing.
   bool wouldAlarm(const ConstantMeasurement& measurement) const;
 
-  /// A time in which the constant did not change.
+  /// Interval in which the constant did not change.
   struct Segment {
     Interval interval;
     std::int64_t measurements = 0;
     double mean = 0.0, sigma = 0.0;
   };
-  /// Returns the segments so far, in order of time; the last one is still open. Empty without a measurement.
+  /// Returns the segments so far, in order of time; the last one is open. Empty without measurements.
   std::vector<Segment> segments() const;
   std::int64_t measurements() const { return count_; }
   /// Returns the weighted mean of the open segment and its standard deviation; 0 and infinity without a measurement.
@@ -55,11 +54,11 @@ class ChangeDetector {
   void archive(Archive& archive);
 
  private:
-  /// Measurements as sums.
+  /// Sums over measurements.
   struct Sums {
     Interval interval;
     std::int64_t count = 0;
-    double weight = 0.0, weighted = 0.0;  ///< of 1 / sigma^2 and of value / sigma^2
+    double weight = 0.0, weighted = 0.0;  ///< sums of 1 / sigma^2 and of value / sigma^2
     void add(const ConstantMeasurement& measurement);
     Segment toSegment() const;
     void archive(Archive& archive) { archive(interval.from, interval.to, count, weight, weighted); }
@@ -69,13 +68,13 @@ class ChangeDetector {
   /// Returns the recursive residual w of the open segment; 0 for its first measurement.
   double residual(const ConstantMeasurement& measurement) const;
   void addToSegment(const ConstantMeasurement& measurement);
-  /// Ends the open segment where its most likely change is.
+  /// Ends the open segment at its most likely change.
   void split();
 
   double threshold_, largest_ = 0.0;
   std::int64_t count_ = 0;
   std::vector<Segment> closed_;
-  Sums past_, open_;                         // the open segment: before its recent measurements, and all of it
+  Sums past_, open_;                         // open segment: before its recent measurements, and all of it
   std::size_t most_recent_, oldest_ = 0;     // capacity; index of the oldest recent measurement
   std::vector<ConstantMeasurement> recent_;  // ring
   double rise_ = 0.0, fall_ = 0.0;
@@ -84,8 +83,8 @@ class ChangeDetector {
 void archive(Archive& archive, ConstantMeasurement& measurement);
 void archive(Archive& archive, ChangeDetector::Segment& segment);
 
-/// Returns the probability that the largest of both sums exceeds `statistic` within `measurements` measurements of a
-/// constant that does not change: 1 - exp(-n r), with 1 / r the mean number of measurements to an alarm by Siegmund's
+/// Returns the probability that the larger of both sums exceeds `statistic` within n = `measurements` measurements of
+/// an unchanged constant: 1 - exp(-n r), with 1 / r the mean number of measurements to an alarm by Siegmund's
 /// approximation (Sequential Analysis, 1985, equation 2.56), halved for two sides.
 double changeProbability(double statistic, std::int64_t measurements);
 

@@ -6,8 +6,8 @@
 
 namespace urban_nav_core {
 
-/// Keeps evenly thinned items of a sequence whose length is not known, at most `most`: every first, second, fourth ...
-/// one. Two sequences of one length keep the items at the same places. Not thread-safe.
+/// Evenly subsamples a sequence of unknown length to at most `most` items: every first, second, fourth ... one. Two
+/// sequences of equal length keep the same indices. Not thread-safe.
 template <typename Item>
 class EvenThinning {
  public:

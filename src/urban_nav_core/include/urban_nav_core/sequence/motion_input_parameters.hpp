@@ -9,15 +9,15 @@
 
 namespace urban_nav_core {
 
-/// Which motion sensor accompanies the images, and its noise: parameters of readers and nodelets, which turn its
-/// messages into MotionInput. Base of their parameters; the rows are those of withMotionInput().
+/// Motion sensor that accompanies the images, and its noise: parameters of readers and nodelets that convert its
+/// messages to MotionInput. Base of their parameter structs; the rows are those of withMotionInput().
 struct MotionInputParameters {
   std::string motion_input;  // auto, none, wheels, gyroscope
   double wheel_noise;        // m/m and rad/rad
   double gyro_noise;         // rad/s
 };
 
-/// Returns `own` rows followed by those of MotionInputParameters.
+/// Returns the rows `own` followed by those of MotionInputParameters.
 template <typename P>
 std::vector<Row<P>> withMotionInput(std::vector<Row<P>> own) {
   const std::vector<Row<P>> rows = {{"motion_input",
@@ -27,9 +27,8 @@ std::vector<Row<P>> withMotionInput(std::vector<Row<P>> own) {
                                      false,
                                      false,
                                      {"auto", "none", "wheels", "gyroscope"},
-                                     "Sensors of motion that accompany the images: the gyroscope of an IMU and wheel "
-                                     "odometry where they are there, one of "
-                                     "them, or none.",
+                                     "Motion sensors used with the images: the gyroscope and wheel odometry if "
+                                     "present, one of them, or none.",
                                      "paper 2.1, eq. 1",
                                      {"swf_vo.motion_input"}},
                                     {"wheel_noise",
@@ -39,9 +38,8 @@ std::vector<Row<P>> withMotionInput(std::vector<Row<P>> own) {
                                      0.0001,
                                      10.0,
                                      {},
-                                     "Standard deviation of wheel odometry from message to message, in proportion to "
-                                     "distance and angle; corrected by "
-                                     "what images show.",
+                                     "Standard deviation of wheel odometry between messages, proportional to distance "
+                                     "and angle; adapted from the images.",
                                      "paper 2.1, eq. 1",
                                      {"swf_vo.wheel_noise"}},
                                     {"gyro_noise",
@@ -51,9 +49,8 @@ std::vector<Row<P>> withMotionInput(std::vector<Row<P>> own) {
                                      0.0,
                                      10.0,
                                      {},
-                                     "Standard deviation of one rate of the IMU, its bias apart, which is estimated; "
-                                     "0: as its messages state, else as "
-                                     "found from their scatter.",
+                                     "Standard deviation of one rate of the IMU without its bias, which is estimated; "
+                                     "0: as in its messages, else from their scatter.",
                                      "paper 2.1, eq. 1",
                                      {"swf_vo.gyro_noise"}}};
   own.insert(own.end(), rows.begin(), rows.end());

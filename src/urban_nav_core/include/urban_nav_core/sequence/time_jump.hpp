@@ -5,8 +5,8 @@
 
 namespace urban_nav_core {
 
-/// Largest step back in time, ns, that is a late message. A larger one starts a new session: the recording was
-/// restarted or the clock was set.
+/// Largest backward step of stamps, ns, that is treated as a late message. A larger one starts a new session: the
+/// recording was restarted or the clock was set.
 constexpr StampNs kMaxStepBack = 1'000'000'000;
 
 /// Returns whether `stamp` is more than kMaxStepBack before `newest`.

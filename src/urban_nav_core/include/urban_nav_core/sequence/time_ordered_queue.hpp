@@ -13,7 +13,7 @@
 
 namespace urban_nav_core {
 
-/// Inputs of one stream of a TimeOrderedQueue: received, and dropped by cause.
+/// Statistics of one stream of a TimeOrderedQueue: inputs received, and inputs dropped by cause.
 struct TimeOrderedQueueCounts {
   std::int64_t received = 0;
   std::int64_t late = 0;       ///< stamp before that of an input already delivered, or on another clock (kMostAhead)
@@ -25,16 +25,15 @@ enum class DeliveryOrder {
   OrderedStreams,  ///< each stream is in order; streams have different delays
 };
 
-/// Merges several streams into one sequence ordered by (stamp, stream), so that a stage receives the same sequence
-/// whatever the delays of its inputs. Uses stamps only and reads no clock.
+/// Merges several streams into one sequence ordered by (stamp, stream), which makes a stage independent of the
+/// latencies of its inputs. Depends on stamps only, not on a clock.
 ///
-/// An input may arrive up to `max_lateness` after one with a later stamp; an input that is later still is dropped and
-/// counted. An input is held until the newest stamp exceeds its own by max_lateness, or, with
-/// DeliveryOrder::OrderedStreams, until every stream has reached its stamp. The latter suits live streams: it minimises
-/// delay, and drops a message that another of its own stream has overtaken. Streams may be optional: one that has sent
-/// nothing while another sent kPatience inputs, or nothing for a second of stamps, is not waited for. Streams may
-/// follow the others: however far ahead their clock is, no input of another stream is late because of them. Not
-/// thread-safe.
+/// An input may arrive up to `max_lateness` after one with a later stamp; later arrivals are dropped and counted. An
+/// input is held until the newest stamp exceeds its own by max_lateness, or, with DeliveryOrder::OrderedStreams, until
+/// every stream has reached its stamp. The latter is for live streams: it minimises latency, but drops a message that
+/// arrives after a later one of its own stream. Streams may be optional: a stream without input while another had
+/// kPatience inputs, or for a second of stamps, is not waited for. Streams may be declared as following the others:
+/// inputs of other streams are never late because of them, however far their clock is ahead. Not thread-safe.
 template <typename Item>
 class TimeOrderedQueue {
  public:
@@ -46,10 +45,10 @@ class TimeOrderedQueue {
 
   static constexpr std::int64_t kPatience = 30;
   static constexpr StampNs kSilence = 1'000'000'000;
-  /// ns by which an input of a following stream may be ahead of the newest of the others.
+  /// Limit, ns, by which an input of a following stream may be ahead of the newest of the others.
   static constexpr StampNs kMostAhead = 10'000'000'000;
 
-  /// `optional`: so many of the first streams are optional. `following`: so many of them follow the others.
+  /// `optional`: number of first streams that are optional. `following`: number of those that follow the others.
   TimeOrderedQueue(int streams, StampNs max_lateness, DeliveryOrder delivery = DeliveryOrder::Shuffled,
                    int optional = 0, int following = 0)
       : counts_(static_cast<std::size_t>(streams)),
@@ -98,14 +97,14 @@ class TimeOrderedQueue {
     return entry;
   }
 
-  /// Ends all streams: take() then returns all inputs that are held.
+  /// Ends all streams: take() then returns all remaining inputs.
   void finish() { finished_ = true; }
 
   const TimeOrderedQueueCounts& counts(int stream) const { return counts_[static_cast<std::size_t>(stream)]; }
   /// Returns the latest stamp of a stream so far.
   std::optional<StampNs> reached(int stream) const { return reached_[static_cast<std::size_t>(stream)]; }
   std::size_t waiting() const { return waiting_.size(); }
-  /// Calls `see(item)` for the inputs that are held and not later than `stamp`, in order.
+  /// Calls `see(item)` for the held inputs that are not later than `stamp`, in order.
   template <typename See>
   void forEachUntil(StampNs stamp, See see) const {
     for (const Entry& entry : waiting_) {
@@ -125,13 +124,14 @@ class TimeOrderedQueue {
       Entry& entry = waiting_[i];
       archive(entry.stamp, entry.stream);
       item(archive, entry.item);
-      archive.require(entry.stream >= 0 && static_cast<std::size_t>(entry.stream) < counts_.size(), "no such stream");
+      archive.require(entry.stream >= 0 && static_cast<std::size_t>(entry.stream) < counts_.size(),
+                      "a stream is unknown");
       archive.require(i == 0 || findPlace(waiting_[i - 1]) < findPlace(entry), "inputs are out of order");
     }
     for (TimeOrderedQueueCounts& counts : counts_) archive(counts.received, counts.late, counts.duplicate);
     for (std::optional<StampNs>& reached : reached_) archive(reached);
     archive(newest_, handed_on_, finished_);
-    archive.require(waiting_.empty() || newest_.has_value() || following_ > 0, "nothing has come");
+    archive.require(waiting_.empty() || newest_.has_value() || following_ > 0, "no input yet");
   }
 
  private:
@@ -162,7 +162,7 @@ class TimeOrderedQueue {
                        [](const TimeOrderedQueueCounts& counts) { return counts.received > kPatience; });
   }
 
-  std::vector<Entry> waiting_;  // sorted; short: what comes in max_lateness
+  std::vector<Entry> waiting_;  // sorted; short: inputs of the last max_lateness
   std::vector<TimeOrderedQueueCounts> counts_;
   std::size_t optional_ = 0, following_ = 0;
   std::vector<std::optional<StampNs>> reached_;

@@ -5,13 +5,13 @@
 
 namespace urban_nav_core::testing {
 
-/// Calls of operator new, malloc and aligned_alloc by this thread since it began. Counted in programs that link the
-/// testing library and use this function; with a sanitizer, whose allocator cannot be replaced, it stays zero and
-/// countsAllocations() says so.
+/// Returns the number of calls of operator new, malloc and aligned_alloc by this thread. Counted in programs that link
+/// the testing library and use this function; with a sanitizer, whose allocator cannot be replaced, it is always zero
+/// and countsAllocations() returns false.
 std::int64_t allocations();
 bool countsAllocations();
 
-/// `const AllocationCount count; work(); EXPECT_EQ(count.sofar(), 0);`
+/// Usage: `const AllocationCount count; work(); EXPECT_EQ(count.sofar(), 0);`
 class AllocationCount {
  public:
   AllocationCount() : before_(allocations()) {}

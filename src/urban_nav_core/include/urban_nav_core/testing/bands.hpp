@@ -7,8 +7,9 @@
 
 namespace urban_nav_core::testing {
 
-/// EXPECT_TRUE(meanChiSquareFits(mean_nees, 6, 50)): is the mean of `count` independent chi-square variables of `dof`
-/// degrees of freedom where it lies in 99 % of all cases? A wider band for tests with few runs: give the probability.
+/// EXPECT_TRUE(meanChiSquareFits(mean_nees, 6, 50)): tests whether the mean of `count` independent chi-square variables
+/// of `dof` degrees of freedom is within its two-sided interval of this probability. Use a larger probability for tests
+/// with few runs.
 inline ::testing::AssertionResult meanChiSquareFits(double mean, double dof, double count, double probability = 0.99) {
   const Band band = chiSquareMeanBand(dof, count, probability);
   if (band.contains(mean)) return ::testing::AssertionSuccess();

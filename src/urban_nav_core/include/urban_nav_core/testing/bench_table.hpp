@@ -6,21 +6,21 @@
 
 namespace urban_nav_core::testing {
 
-/// A table of measured figures as a README shows it: the one form in which a bench leaves its results. Written to
-/// bench/results/NAME.json with the machine, the commit and the command that made it; scripts/tables.py renders it.
+/// Table of measured figures for a README, the common output of all benches. Written to bench/results/NAME.json with
+/// machine, commit and command line; rendered by scripts/tables.py.
 class BenchTable {
  public:
-  /// `arguments`: the program's own, to be repeated in the file.
+  /// `arguments`: those of the program, stored in the file.
   BenchTable(std::vector<std::string> columns, int argc, char** argv);
 
-  /// A row of cells, as many as columns.
+  /// Adds a row with a cell for each column.
   void add(std::vector<std::string> cells);
-  /// A sentence below the table (a peer's options, what limits a figure).
+  /// Adds a sentence below the table (options of a compared program, limitations of a figure).
   void note(std::string sentence);
 
-  /// For a terminal, columns aligned.
+  /// Returns the table for a terminal, with aligned columns.
   std::string text() const;
-  /// Writes the JSON file, beside and renamed. Throws UserError if it cannot.
+  /// Writes the JSON file atomically. Throws UserError if it cannot be written.
   void write(const std::string& path) const;
 
   const std::vector<std::vector<std::string>>& rows() const { return rows_; }
@@ -32,11 +32,11 @@ class BenchTable {
   std::string command_;
 };
 
-/// A number with a fixed count of decimals, for a cell.
+/// Returns a number with a fixed number of decimals, for a cell.
 std::string cell(double value, int decimals);
-/// "Intel ... (2 cores)": the processor as the system names it.
+/// Returns the processor as named by the system: "Intel ... (2 cores)".
 std::string machineName();
-/// The short commit of the working directory, with "+" if it was changed; "unknown" outside a repository.
+/// Returns the short commit of the working directory, with "+" if it was modified; "unknown" outside a repository.
 std::string commitName();
 
 }  // namespace urban_nav_core::testing

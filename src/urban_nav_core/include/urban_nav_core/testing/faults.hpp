@@ -10,10 +10,10 @@
 
 namespace urban_nav_core::testing {
 
-/// What can go wrong with a stream of stereo pairs.
+/// Faults of a stream of stereo pairs.
 enum class FaultKind {
   Black,          ///< grey level 0 in both images
-  Freeze,         ///< the images of the frame before the fault go on, with new stamps
+  Freeze,         ///< the last images before the fault are repeated, with new stamps
   Swap,           ///< left and right exchanged
   Drop,           ///< frames are missing; value: their share, 0...1 (default 1)
   OverExpose,     ///< grey levels times value (default 4), clipped
@@ -21,33 +21,33 @@ enum class FaultKind {
   Corrupt,        ///< rows of random grey levels; value: their share, 0...1 (default 0.3)
   NoLeft,         ///< the left image is missing
   NoRight,        ///< the right image is missing
-  StampJump,      ///< stamps are later by value in s (default 10; may be below zero)
+  StampJump,      ///< stamps are later by value in s (default 10; may be negative)
   StampEqual,     ///< the stamp of the frame before the fault
   StampBackward,  ///< stamps run backwards from the one before the fault
 };
-/// "black", "freeze", "swap", "drop", "overexpose", "blur", "corrupt", "noleft", "noright", "jump", "equal",
+/// Returns "black", "freeze", "swap", "drop", "overexpose", "blur", "corrupt", "noleft", "noright", "jump", "equal" or
 /// "backward".
 const char* toString(FaultKind kind);
 
-/// A fault for some time. Times count from the first frame of the stream.
+/// Fault during an interval. Times count from the first frame of the stream.
 struct Fault {
   FaultKind kind = FaultKind::Black;
   double start_s = 0.0;
   double duration_s = 1.0;
-  std::optional<double> value;  ///< what it means, and the default: FaultKind
+  std::optional<double> value;  ///< meaning and default by FaultKind
 
   bool isActive(StampNs since_first) const;
 };
 
-/// "KIND:START_S:DURATION_S[:VALUE]", "black:2:1", "drop:0:100:0.3". Throws UserError that says what is allowed.
+/// Parses "KIND:START_S:DURATION_S[:VALUE]", "black:2:1", "drop:0:100:0.3". Throws UserError with the valid values.
 Fault parseFault(const std::string& text);
 
-/// Lets frames through, faults included. The same seed and frames give the same result. Not thread-safe.
+/// Applies faults to a stream of frames. Deterministic for the same seed and frames. Not thread-safe.
 class FaultFilter {
  public:
   FaultFilter(std::vector<Fault> faults, std::uint32_t seed);
 
-  /// The frame as it arrives; none if it was dropped. Frames come in the order of their true stamps.
+  /// Returns the frame with its faults; nullopt if it was dropped. Frames must be in order of their true stamps.
   std::optional<StereoFrame> apply(const StereoFrame& frame);
 
  private:
@@ -58,7 +58,7 @@ class FaultFilter {
   std::uint32_t seed_;
   std::uint64_t count_ = 0;
   std::optional<StampNs> first_stamp_;
-  StereoFrame last_good_;  ///< the newest frame without a fault, with its true stamp
+  StereoFrame last_good_;  ///< newest frame without a fault, with its true stamp
 };
 
 }  // namespace urban_nav_core::testing

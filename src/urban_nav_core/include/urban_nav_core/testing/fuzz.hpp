@@ -9,9 +9,9 @@
 
 namespace urban_nav_core::testing {
 
-/// Damages files in ways that keep most of their structure, so that a reader is tested beyond its first check: bytes,
+/// Damages files while keeping most of their structure, so that a reader is tested beyond its first check: bytes,
 /// numbers (too large, not finite, negative, followed by garbage), words, lines and ends; pieces of one seed in
-/// another. The same seed value gives the same sequence of texts.
+/// another. Deterministic for the same seed.
 class Mutator {
  public:
   /// `seeds`: at least one valid file.
@@ -27,22 +27,20 @@ class Mutator {
 };
 
 struct FuzzResult {
-  int accepted = 0;     ///< texts that the reader took
-  int refused = 0;      ///< texts that it refused with a UserError
-  std::string failure;  ///< empty, or the other exception and the text that caused it
+  int accepted = 0;     ///< texts that the reader accepted
+  int refused = 0;      ///< texts that it rejected with a UserError
+  std::string failure;  ///< empty, or the unexpected exception and the text that caused it
 };
 
-/// Seconds to fuzz one reader: the environment's URBAN_NAV_FUZZ_SECONDS, else 0.3.
+/// Returns the seconds to fuzz one reader: the environment's URBAN_NAV_FUZZ_SECONDS, else 0.3.
 double fuzzSeconds();
 
-/// Gives damaged texts to `read` for fuzzSeconds(), the undamaged seeds first. A reader may return or throw UserError;
-/// a different exception ends the run with `failure`, and what else goes wrong (memory, arithmetic) a sanitizer has to
-/// say.
+/// Passes damaged texts to `read` for fuzzSeconds(), the undamaged seeds first. A reader may return or throw UserError;
+/// any other exception ends the run with `failure`. Errors of memory or arithmetic are detected by sanitizers.
 FuzzResult fuzzText(const std::vector<std::string>& seeds, const std::function<void(const std::string& text)>& read,
                     std::uint64_t seed = 1);
 
-/// The same for a reader that wants the path of a file; the file lies in a folder of its own under the system's one for
-/// temporary files, is called `name`, and is gone afterwards.
+/// Fuzzes a reader of files; the file is called `name` and is in a temporary folder that is removed afterwards.
 FuzzResult fuzzFile(const std::vector<std::string>& seeds, const std::string& name,
                     const std::function<void(const std::string& path)>& read, std::uint64_t seed = 1);
 

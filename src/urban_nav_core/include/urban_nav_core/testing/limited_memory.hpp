@@ -5,7 +5,7 @@
 
 namespace urban_nav_core::testing {
 
-/// Another memory limit for a test; the former one returns at its end.
+/// Sets another memory limit for a test; the destructor restores the previous one.
 class LimitedMemory {
  public:
   explicit LimitedMemory(std::size_t bytes) : before_(memoryLimit()) { setMemoryLimit(bytes); }

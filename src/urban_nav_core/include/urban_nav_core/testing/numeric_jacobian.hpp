@@ -7,8 +7,8 @@
 
 namespace urban_nav_core::testing {
 
-/// How a value is moved by a tangent and how two values differ, for vectors, numbers, rotations and poses: poses by
-/// boxPlus and boxMinus, rotations from the left. Overload for a type of your own, in its name space.
+/// Perturbation and difference of vectors, numbers, rotations and poses: poses by boxPlus and boxMinus, rotations from
+/// the left. Overload for other types in their own namespace.
 inline Pose plus(const Pose& x, const Vector6d& d) { return boxPlus(x, d); }
 inline Vector6d minus(const Pose& a, const Pose& b) { return boxMinus(a, b); }
 inline Quaterniond plus(const Quaterniond& x, const Vector3d& d) { return expSo3(d) * x; }
@@ -24,8 +24,8 @@ Eigen::Matrix<double, N, 1> minus(const Eigen::Matrix<double, N, 1>& a, const Ei
   return a - b;
 }
 
-/// d f / d x at x by Richardson's extrapolation of central differences with the steps h and h / 2: error of order h^4,
-/// so that a wrong term of 1e-8 shows. `Rows` and `Columns` are the tangent sizes of f(x) and x.
+/// Returns d f / d x at x by Richardson extrapolation of central differences with the steps h and h / 2: error of order
+/// h^4, so that a wrong term of 1e-8 is detected. `Rows` and `Columns` are the tangent sizes of f(x) and x.
 template <int Rows, int Columns, typename X, typename Function>
 Eigen::Matrix<double, Rows, Columns> numericJacobian(const Function& f, const X& x, double h = 1e-3) {
   Eigen::Matrix<double, Rows, Columns> J;

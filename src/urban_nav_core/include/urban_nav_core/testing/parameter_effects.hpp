@@ -14,13 +14,13 @@
 
 namespace urban_nav_core::testing {
 
-/// A value of one row of a table: {"window", 5}.
+/// Value of one row of a table: {"window", 5}.
 struct ParameterChange {
   std::string name;
   ParameterValue value;
 };
 
-/// A run of a core whose result depends on parameters, and the changes that it shows.
+/// Run of a core whose result depends on parameters, and the changes that must affect it.
 template <typename Parameters>
 struct ParameterExperiment {
   using Run = std::function<std::string(const Parameters&)>;
@@ -29,22 +29,22 @@ struct ParameterExperiment {
       : name(std::move(title)), run(std::move(function)), changes(std::move(tested)), conditions(std::move(beside)) {}
 
   std::string name;    ///< for messages: "map of a street"
-  Run run;             ///< returns the result as bytes or text, the same for equal parameters
-  Changes changes;     ///< each of them alone must change the result
-  Changes conditions;  ///< apply to all runs: for a row that matters only beside others
+  Run run;             ///< returns the result as bytes or text, equal for equal parameters
+  Changes changes;     ///< each of them, applied alone, must change the result
+  Changes conditions;  ///< apply to all runs: for a row that has an effect only in combination with others
 };
 
-/// A row whose effect is shown by another test: since it is not on results (threads, memory, rates), or since another
-/// package uses the row.
+/// Row whose effect is tested elsewhere, because it does not concern results (threads, memory, rates) or because
+/// another package uses it.
 struct ParameterTest {
   std::string name;         ///< "queue"
   std::string test;         ///< "LiveMapper.DropsTheOldestScans"
-  std::string folder = "";  ///< of the sources of another binary's tests: path from that of this package
+  std::string folder = "";  ///< source folder of tests of another binary: path from the folder of this package
 };
 
 namespace detail {
 
-/// Returns whether a source in the folder or below it has the test "Suite.Name".
+/// Returns whether a source in the folder or its subfolders has the test "Suite.Name".
 inline bool hasTest(const std::string& folder, const std::string& test) {
   const std::size_t dot = test.find('.');
   const std::string head = "(" + test.substr(0, dot) + ", " + test.substr(dot + 1) + ")";
@@ -73,7 +73,7 @@ const RowInfo* findRow(const Table<Parameters>& table, const std::string& name) 
   return row == rows.end() ? nullptr : &*row;
 }
 
-/// Sets one value; returns what is wrong with the change, in words, or an empty text.
+/// Sets one value; returns a description of an invalid change, or an empty text.
 template <typename Parameters>
 std::string applyChange(const Table<Parameters>& table, const ParameterChange& change, Parameters& parameters) {
   const RowInfo* row = findRow(table, change.name);
@@ -85,7 +85,7 @@ std::string applyChange(const Table<Parameters>& table, const ParameterChange& c
   return is_same ? "is the value without the change" : "";
 }
 
-/// Runs one experiment; returns a line for each change that is wrong or has no effect.
+/// Runs one experiment; returns a line for each change that is invalid or has no effect.
 template <typename Parameters>
 std::string runExperiment(const Table<Parameters>& table, const ParameterExperiment<Parameters>& experiment) {
   std::string faults;
@@ -119,9 +119,8 @@ std::string findChangesWithoutEffect(const Table<Parameters>& table,
   return faults;
 }
 
-/// Returns a line for each row of the table that has no test in which it matters, and what findChangesWithoutEffect()
-/// returns; empty if every row has one. Each row must be among the changes of an experiment, or have a test in
-/// `elsewhere`.
+/// Returns a line for each row of the table without a test of its effect, and the result of findChangesWithoutEffect();
+/// empty if there is none. Each row must be among the changes of an experiment or have a test in `elsewhere`.
 template <typename Parameters>
 std::string findParametersWithoutEffect(const Table<Parameters>& table,
                                         const std::vector<ParameterExperiment<Parameters>>& experiments,

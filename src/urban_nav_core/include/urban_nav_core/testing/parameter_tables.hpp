@@ -8,10 +8,10 @@
 
 namespace urban_nav_core::testing {
 
-/// What is wrong with the tables of a package that has a nodelet, one line each; empty: nothing. config/STAGE.yaml and
-/// the two tables in README.md are as printed from the rows; each row of the stage says where it comes from; no row of
-/// the nodelet hides one of the stage. Without `of_nodelet` the one table is all there is. For tests, which run in the
-/// folder of the package. Throws UserError where a file is not there or has no markers.
+/// Returns the faults of the parameter tables of a package, one per line; empty: none. config/STAGE.yaml and the tables
+/// in README.md must be as printed from the rows, each row of the stage must state its source, and no row of the
+/// nodelet may hide one of the stage. Without `of_nodelet` the package has one table. For tests, which run in the
+/// folder of the package. Throws UserError if a file is missing or has no markers.
 std::string findFaults(const std::string& stage, const std::vector<RowInfo>& of_stage,
                        const std::vector<RowInfo>& of_nodelet = {});
 

@@ -5,7 +5,7 @@
 
 namespace urban_nav_core::testing {
 
-/// By how much (bytes) the memory of the process grows while `work` runs, at its peak; 0 where the system does not say.
+/// Returns the peak growth of the process's memory while `work` runs, bytes; 0 if the system does not provide it.
 double measureMemory(const std::function<void()>& work);
 
 }  // namespace urban_nav_core::testing

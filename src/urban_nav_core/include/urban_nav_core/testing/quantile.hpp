@@ -8,7 +8,7 @@
 
 namespace urban_nav_core::testing {
 
-/// The value below which `share` (0...1) of the values lie: the nearest of those that there are; 0 of none.
+/// Returns the element below which `share` (0...1) of the values lie, without interpolation; 0 for no values.
 inline double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
   const auto at = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));

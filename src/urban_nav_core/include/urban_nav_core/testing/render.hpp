@@ -8,29 +8,29 @@
 
 namespace urban_nav_core::testing {
 
-/// The camera of the renderer: an exact pinhole with integer pixel centres, z forward, x right, y down. Its projection
-/// is its own, so that camera/ can be tested against it.
+/// Camera of the renderer: an exact pinhole with integer pixel centres, z forward, x right, y down. It has its own
+/// projection, so that camera/ can be tested against it.
 struct RenderCamera {
   double fx = 400.0, fy = 400.0;  ///< px
   double cx = 255.5, cy = 191.5;  ///< px
   int width = 512, height = 384;  ///< px
   double baseline = 0.12;         ///< m, of the right camera along x
-  double blur = 0.5;  ///< standard deviation of the point spread function, px: that of a good lens and a pixel's area
+  double blur = 0.5;  ///< standard deviation of the point spread function, px: a good lens with a pixel's area
 };
 
-/// Draws a scene. Keeps its buffers, so one renderer should draw many frames. Not thread-safe; different renderers
-/// are independent.
+/// Draws a scene. Keeps its buffers, so one renderer should draw many frames. Not thread-safe; different renderers are
+/// independent.
 class Renderer {
  public:
   explicit Renderer(const RenderCamera& camera);
 
   const RenderCamera& camera() const { return camera_; }
-  /// Grey levels, not rounded and not clipped, row by row; what a camera at T_world_camera sees. Lives until the next
-  /// call.
+  /// Returns the image of a camera at T_world_camera: grey levels, neither rounded nor clipped, row by row. Valid until
+  /// the next call.
   const std::vector<float>& draw(const Scene& scene, const Pose& T_world_camera);
 
  private:
-  /// A rectangle seen from the camera: (a, b, 1) / z = N (u, v, 1), texture coordinates included.
+  /// Rectangle in the camera frame: (a, b, 1) / z = N (u, v, 1), including texture coordinates.
   struct Plane {
     Eigen::Matrix3d N;
     double a0, a1, b0, b1;  ///< bounds in texture coordinates
@@ -38,7 +38,7 @@ class Renderer {
     double shade;
   };
 
-  /// Texture coordinates of a pixel, m, and its depth over that of (u, v, 1) in N.
+  /// Texture coordinates of a pixel, m, and the factor from N (u, v, 1) to its depth.
   struct Place {
     double a, b, scale;
   };

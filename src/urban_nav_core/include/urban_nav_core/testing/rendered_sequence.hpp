@@ -28,37 +28,37 @@ struct StereoFrame {
   StereoPair pair() const { return {stamp, left.view(), right.view()}; }
 };
 
-/// The renderer's camera as a stage knows it.
+/// Returns the camera model of the renderer's camera.
 StereoCamera makeCamera(const RenderCamera& rendered);
 
-/// How the sequence is taken.
+/// Acquisition of the sequence.
 struct SequenceOptions {
   RenderCamera camera;
   double rate = 20.0;      ///< Hz
   double noise = 1.0;      ///< standard deviation of the image noise, grey levels
-  std::uint32_t seed = 1;  ///< of the noise: each frame and camera has its own
-  double exposure = 0.0;   ///< s, about the stamp: what moves meanwhile is blurred
+  std::uint32_t seed = 1;  ///< of the image noise, independent for each frame and camera
+  double exposure = 0.0;   ///< s, centred on the stamp: motion during it blurs the image
   StampNs first_stamp = 1'000'000'000;
-  std::function<double(double t)> gain;  ///< exposure, a factor on the grey levels; none: 1
+  std::function<double(double t)> gain;  ///< exposure as a factor on the grey levels; empty: 1
 };
 
-/// Frames of a scene along a motion, one at a time, in any order: frame i is the same whenever it is asked for.
+/// Frames of a scene along a motion, in any order: frame i is the same at every call.
 class RenderedSequence {
  public:
-  /// `scene(t)`: the scene at a time in s.
+  /// `scene(t)`: the scene at time t, s.
   RenderedSequence(std::function<Scene(double t)> scene, Motion motion, const SequenceOptions& options);
-  /// A scene in which nothing moves.
+  /// Creates a sequence of a static scene.
   RenderedSequence(Scene scene, Motion motion, const SequenceOptions& options);
 
   const SequenceOptions& options() const { return options_; }
   double time(int i) const { return i / options_.rate; }
   StampNs stamp(int i) const;
-  /// Exact pose of the left optical frame.
+  /// Returns the exact pose of the left optical frame.
   Pose T_world_camera(int i) const { return motion_(time(i)); }
-  /// The pair. Lives until the next call.
+  /// Returns the stereo pair. Valid until the next call.
   const StereoFrame& frame(int i) { return frame(i, options_.noise); }
-  /// The same with another standard deviation of the image noise, grey levels. What is seen is drawn once per frame:
-  /// its further exposures are cheap.
+  /// Returns the pair with another standard deviation of the image noise, grey levels. The scene is drawn once per
+  /// frame: further exposures of it are cheap.
   const StereoFrame& frame(int i, double noise);
 
  private:

@@ -11,7 +11,7 @@ namespace urban_nav_core::testing {
 
 using urban_nav_core::Pose;
 
-/// An upright block, turned about z. With the ground z = 0 it is all that there is in these worlds.
+/// Upright block, rotated about z. A world consists of blocks and the ground z = 0.
 struct Block {
   double x, y;           // middle, m
   double length, width;  // along its own axes, m
@@ -23,11 +23,11 @@ struct World {
   bool ground = true;
 };
 
-/// A courtyard of four fronts with bays, with trees, cars and a kiosk in it: no two seeds alike.
+/// Courtyard of four fronts with bays, with trees, cars and a kiosk, different for each seed.
 World courtyard(std::uint64_t seed);
-/// One straight front without a feature, and the ground before it.
+/// One straight featureless front, and the ground before it.
 World facade();
-/// Ground alone.
+/// Ground without blocks.
 World plain();
 
 struct Scanner {
@@ -36,12 +36,12 @@ struct Scanner {
   double range = 60.0, sigma = 0.015;     // m
 };
 
-/// What a spinning laser at T_world_sensor sees, in its frame. Rays against blocks, one by one; shares nothing with the
-/// estimator.
+/// Returns the scan of a spinning laser at T_world_sensor, in its frame. Rays are intersected with each block; shares
+/// no code with the estimator.
 urban_nav_core::PointCloud scan(const World& world, const Pose& T_world_sensor, const Scanner& scanner,
                                 std::uint64_t seed);
 
-/// A sensor 1.5 m above the ground.
+/// Returns the pose of a sensor 1.5 m above the ground.
 Pose stand(double x, double y, double heading_deg, double roll_deg = 0.0, double pitch_deg = 0.0);
 
 }  // namespace urban_nav_core::testing

@@ -10,7 +10,7 @@
 
 namespace urban_nav_core::testing {
 
-/// A piece of a plane, seen from the side that a x b points to.
+/// Rectangle, visible from the side that a x b points to.
 struct Rectangle {
   Vector3d corner = Vector3d::Zero();  ///< in world, m
   Vector3d a = Vector3d::UnitX();      ///< unit, along the texture's x
@@ -18,24 +18,24 @@ struct Rectangle {
   double size_a = 1.0, size_b = 1.0;   ///< m
   std::shared_ptr<const Texture> texture;
   double texture_x = 0.0, texture_y = 0.0;  ///< texture coordinates of the corner, m
-  double shade = 1.0;                       ///< factor on the texture: how much light this side gets
+  double shade = 1.0;                       ///< factor on the texture: illumination of this side
 };
 
-/// What a ray met first.
+/// First intersection of a ray.
 struct Hit {
-  double distance = 0.0;  ///< in lengths of the direction that was asked
+  double distance = 0.0;  ///< in units of the length of the direction
   std::size_t rectangle = 0;
 };
 
 /// Textured rectangles in a world frame whose z points up. Plain data.
 struct Scene {
   std::vector<Rectangle> rectangles;
-  double background = 215.0;  ///< grey levels where there is none: sky
+  double background = 215.0;  ///< grey level where there is no rectangle: sky
 
-  /// The five or six outer faces of a box; T_world_box: to the middle of its floor, x along `size.x()`.
+  /// Adds the five or six outer faces of a box. T_world_box: to the centre of its floor, x along `size.x()`.
   void addBox(const Pose& T_world_box, const Vector3d& size, const std::shared_ptr<const Texture>& texture,
               double shift);
-  /// Exact, by the planes' equations.
+  /// Returns the first intersection, computed exactly from the plane equations.
   std::optional<Hit> trace(const Vector3d& origin, const Vector3d& direction) const;
 };
 

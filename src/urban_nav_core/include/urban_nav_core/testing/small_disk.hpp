@@ -8,8 +8,7 @@
 
 namespace urban_nav_core::testing {
 
-/// While it lives no file of this process can grow beyond `bytes`: what a full disk looks like from here, without a
-/// disk to fill.
+/// Limits the size of files of this process to `bytes` during its lifetime, to simulate a full disk.
 class SmallDisk {
  public:
   explicit SmallDisk(std::size_t bytes) {

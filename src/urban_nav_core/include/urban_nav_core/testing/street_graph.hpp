@@ -5,24 +5,24 @@
 
 namespace urban_nav_core::testing {
 
-/// A town of square blocks on gentle hills, and how the robot drives in it.
+/// Town of square blocks on gentle hills, and the driving pattern of the robot.
 struct StreetOptions {
-  double step_m = 0.05;        ///< from pose to pose: 1 m/s at 20 Hz
-  double block_m = 40.0;       ///< from crossing to crossing
-  double turn_radius_m = 5.0;  ///< of the middle of the street
-  double lane_m = 1.5;         ///< to the right of the middle
-  double hill_m = 1.0;         ///< height of the hills, 150 m apart; 0 keeps the streets level
-  double visits = 3.0;         ///< how often a street is driven on average; the town is as large as that allows
+  double step_m = 0.05;        ///< between poses: 1 m/s at 20 Hz
+  double block_m = 40.0;       ///< between crossings
+  double turn_radius_m = 5.0;  ///< for the middle of the street
+  double lane_m = 1.5;         ///< right of the middle
+  double hill_m = 1.0;         ///< height of the hills, 150 m apart; 0: level streets
+  double visits = 3.0;         ///< mean number of drives along a street; determines the size of the town
 };
 
-/// Noise of the size that stereo odometry has at 20 Hz and 1 m/s (0.6 % and 0.05 deg over ten frames), and a metric
-/// closure from images (5 cm, 0.6 deg).
+/// Returns noise of typical stereo odometry at 20 Hz and 1 m/s (0.6 % and 0.05 deg over ten frames) and of metric
+/// closures from images (5 cm, 0.6 deg).
 GraphNoise streetNoise();
 
-/// A robot that cannot move sideways drives through the town at 20 Hz, turns at random at crossings and comes back to
-/// streets it knows, in the same and in the opposite direction on the other lane: z follows the hills, pitch and roll
-/// too. `closures` of the places seen again (one a metre) are measured, spread evenly at random. Takes time and memory
-/// in proportion to `poses`. Throws std::invalid_argument if so few places are seen again.
+/// Non-holonomic robot that drives through the town at 20 Hz, turns at random at crossings and revisits streets in the
+/// same and, on the other lane, in the opposite direction; z, pitch and roll follow the hills. `closures` of the
+/// revisits (one a metre) are measured, drawn uniformly at random. Time and memory are proportional to `poses`. Throws
+/// std::invalid_argument if there are fewer revisits.
 SimulatedGraph streetGraph(std::size_t poses, std::size_t closures, const GraphNoise& noise, std::uint64_t seed,
                            const StreetOptions& options = {});
 

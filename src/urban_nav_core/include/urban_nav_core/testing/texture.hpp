@@ -9,39 +9,39 @@
 
 namespace urban_nav_core::testing {
 
-/// What a pixel sees of a plane, as the Gaussian that its point spread function becomes there: covariance in m^2.
+/// Point spread function of a pixel projected onto a plane, as a Gaussian: covariance in m^2.
 struct Footprint {
   double xx = 0.0, xy = 0.0, yy = 0.0;
 };
 
-/// Noise of one scale: white noise on a square lattice under cubic B-splines, which leave hardly anything above the
-/// lattice's own frequency.
+/// Noise of one scale: white noise on a square lattice, interpolated by cubic B-splines, with hardly any signal above
+/// the lattice frequency.
 struct Octave {
   double spacing = 0.1;    ///< of the lattice, m
   double amplitude = 5.0;  ///< standard deviation, grey levels
-  bool patchy = false;     ///< only where a slow mask allows it, so that parts of the surface are smooth
+  bool patchy = false;     ///< only within a slowly varying mask, so that parts of the surface are smooth
 };
 
 /// Rectangles with sharp edges, one in each cell of a wall: bricks, windows, posters, slabs.
 struct Cells {
   double width = 0.5, height = 0.25;        ///< of a cell, m
-  double shift = 0.0;                       ///< of every other row, in cells
+  double shift = 0.0;                       ///< offset of every other row, in cells
   double margin_x = 0.01, margin_y = 0.01;  ///< between the rectangle and its cell, m
-  double share = 1.0;                       ///< of the cells that have one
-  double low = -20.0, high = 20.0;          ///< what it adds, grey levels, drawn evenly per cell
-  std::uint32_t seed = 0;                   ///< equal seeds choose the same cells
+  double share = 1.0;                       ///< share of the cells that have a rectangle
+  double low = -20.0, high = 20.0;          ///< offset of a rectangle, grey levels, uniform per cell
+  std::uint32_t seed = 0;                   ///< equal seeds select the same cells
 };
 
-/// A surface's brightness as a formula: it can be asked at any point and scale, and is filtered analytically, so that a
-/// picture of it moves by exactly what the geometry says and nothing below a pixel's size shimmers.
-/// At most kMost octaves and kMost patterns of cells. Immutable, so thread-safe.
+/// Brightness of a surface as a formula that is evaluated at any point and scale and filtered analytically, so that its
+/// image moves exactly as the geometry requires and is free of aliasing. At most kMost octaves and kMost patterns of
+/// cells. Immutable, hence thread-safe.
 class Texture {
  public:
   static constexpr std::size_t kMost = 6;
 
   Texture(double base, const std::vector<Octave>& octaves, const std::vector<Cells>& cells, std::uint32_t seed);
 
-  /// What a footprint leaves of the texture; serves all places where the footprint is about the same.
+  /// Texture filtered by a footprint; valid for all places where the footprint is about the same.
   class Filter {
     friend class Texture;
     struct Wave {
@@ -62,10 +62,10 @@ class Texture {
   };
   Filter filter(const Footprint& footprint) const;
 
-  /// Grey levels (not clipped) at (x, y) m under a filter of this texture.
+  /// Returns the grey level (not clipped) at (x, y) m under a filter of this texture.
   double value(double x, double y, const Filter& filter) const;
 
-  /// The same for neighbouring pixels of one row, faster: to within 1 % of each octave's amplitude.
+  /// Evaluates kRun adjacent pixels of one row, faster: to within 1 % of each octave's amplitude.
   static constexpr std::size_t kRun = 8;
   using Run = std::array<double, kRun>;
   void values(const Run& x, const Run& y, const Filter& filter, Run& grey) const;
@@ -75,11 +75,11 @@ class Texture {
     double frequency;  ///< lattice steps per m
     double amplitude;
     bool patchy;
-    double origin_x, origin_y;  ///< waves share the lattice, each from a place of its own
+    double origin_x, origin_y;  ///< octaves share the lattice, each with its own origin
   };
   struct Pattern : Cells {
     double per_width, per_height;
-    double mean;  ///< of the whole pattern, grey levels
+    double mean;  ///< mean of the whole pattern, grey levels
   };
   struct Part;
 
@@ -98,7 +98,8 @@ class Texture {
   double base_;
   std::vector<Wave> waves_;
   std::vector<Pattern> patterns_;
-  std::vector<float> lattice_;  ///< three rows and columns more than its period, so that four neighbours never wrap
+  std::vector<float> lattice_;  ///< three rows and columns more than its period, so that four neighbours need no
+                                ///< wrap-around
 };
 
 }  // namespace urban_nav_core::testing

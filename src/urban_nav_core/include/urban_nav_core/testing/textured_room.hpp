@@ -7,8 +7,8 @@
 
 namespace urban_nav_core::testing {
 
-/// A room with a few boxes and pillars, floor at z = 0, its middle at the origin. A camera may be anywhere within
-/// `freeX`, `freeY` of the middle: there is no furniture.
+/// Room with a few boxes and pillars, floor at z = 0, centred at the origin. Within `freeX`, `freeY` of the centre
+/// there is no furniture, so a camera may be anywhere.
 struct RoomSize {
   double x = 12.0, y = 8.0, z = 3.0;  ///< m, at least 6 x 4 x 2
   double freeX() const { return 0.5 * x - 1.6; }

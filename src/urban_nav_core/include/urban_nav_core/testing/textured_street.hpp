@@ -17,8 +17,8 @@ struct StreetSize {
 
 Scene texturedStreet(const StreetSize& size = {}, std::uint32_t seed = 1);
 
-/// The street with a van that drives ahead on the middle of the road: `ahead` m before a camera that left the origin at
-/// `speed`, coming nearer and falling back by a fifth of that distance.
+/// The street with a van ahead in the middle of the road: `ahead` m before a camera that left the origin at `speed`,
+/// with a distance that oscillates by a fifth.
 std::function<Scene(double t)> streetWithVan(const StreetSize& size, double speed, double ahead,
                                              std::uint32_t seed = 1);
 

@@ -9,25 +9,26 @@
 
 namespace urban_nav_core::testing {
 
-/// How the simulated camera moves, 10 frames a second, nearly level with a little pitch and roll.
+/// Motion of the simulated camera, 10 frames a second, nearly level with a little pitch and roll.
 enum class TrackMotion {
   Standing,  ///< does not move
-  Straight,  ///< forward at a steady pace
-  Turning,   ///< forward while it turns to and fro
+  Straight,  ///< forward at constant speed
+  Turning,   ///< forward in alternating turns
   Mixed,     ///< drives, turns through 360 deg, stops, drives on
 };
 
-/// A stereo camera among points: what a perfect front end would measure, with noise.
+/// Stereo camera among points: measurements of an ideal front end, with noise.
 struct TrackOptions {
   std::uint64_t seed = 1;
   int frames = 200;
   TrackMotion motion = TrackMotion::Turning;
   double speed = 0.1;          ///< m a frame
   int features = 60;           ///< seen in a frame
-  double sigma_px = 0.3;       ///< of each of u_left, v, u_right, independent
-  double track_length = 13.0;  ///< mean life of a landmark, frames, where it does not leave the image before; geometric
-  double missed = 0.05;        ///< share of sightings that are left out while the landmark lives on
-  double outliers = 0.0;       ///< share of sightings that are off by up to 20 px
+  double sigma_px = 0.3;       ///< of u_left, v and u_right, independent
+  double track_length = 13.0;  ///< mean lifetime of a landmark that stays in the image, frames; geometrically
+                               ///< distributed
+  double missed = 0.05;        ///< share of measurements omitted while the landmark is alive
+  double outliers = 0.0;       ///< share of measurements with errors of up to 20 px
   double nearest = 2.0, farthest = 40.0;  ///< depth of new points, m, uniform in the logarithm
 };
 
@@ -40,7 +41,7 @@ struct TrackSighting {
 struct TrackFrame {
   Pose T_world_camera;                   ///< truth; the first is the identity
   std::vector<TrackSighting> sightings;  ///< in order of landmark
-  std::vector<std::int64_t> ended;       ///< landmarks that will not be seen again, after this frame
+  std::vector<std::int64_t> ended;       ///< landmarks without measurements after this frame
 };
 
 struct Tracks {
@@ -50,7 +51,8 @@ struct Tracks {
   std::vector<Eigen::Vector3d> points;  ///< truth by landmark, in `world`, m
 };
 
-/// The same options give the same bits. Own projection code: what is tested with it does not test itself.
+/// Simulates tracks; equal options give identical bits. Uses its own projection, so that the tested code is not tested
+/// against itself.
 Tracks simulateTracks(const TrackOptions& options);
 
 }  // namespace urban_nav_core::testing

@@ -14,18 +14,17 @@ struct Similarity {
   Pose T_truth_estimate;
 
   Vector3d operator*(const Vector3d& p) const { return scale * (T_truth_estimate.q() * p) + T_truth_estimate.t(); }
-  /// The pose with its position moved and its rotation turned.
+  /// Returns the transformed pose: position and rotation.
   Pose operator*(const Pose& pose) const;
 };
 
-/// First pose onto first pose.
+/// Returns the transform that aligns the first poses.
 Similarity alignFirst(const std::vector<Pose>& truth, const std::vector<Pose>& estimate);
 
-/// The rigid motion, or similarity, that brings the estimated positions closest to the true ones in the mean square
-/// (Umeyama, "Least-squares estimation of transformation parameters between two point patterns", PAMI 1991). Where the
-/// positions lie on a line or in one point, the rotation that they leave open is the one that brings the first pose's
-/// heading closest to the truth's; where the estimate stands still, the scale is 1. Both vectors equally long and not
-/// empty.
+/// Return the rigid motion or similarity that minimises the mean squared distance of estimated and true positions
+/// (Umeyama, "Least-squares estimation of transformation parameters between two point patterns", PAMI 1991). If the
+/// positions are collinear or coincide, the undetermined rotation aligns the heading of the first poses; if the
+/// estimate does not move, the scale is 1. Both vectors must be equally long and not empty.
 Similarity alignSe3(const std::vector<Pose>& truth, const std::vector<Pose>& estimate);
 Similarity alignSim3(const std::vector<Pose>& truth, const std::vector<Pose>& estimate);
 

@@ -9,7 +9,7 @@
 
 namespace urban_nav_core {
 
-/// Stamps of truth and estimate count as the same time within this.
+/// Largest difference, ns, at which stamps of truth and estimate count as equal.
 constexpr StampNs kAssociationTolerance = 20000000;
 
 /// Poses of truth and estimate at the same times, in order of time; all vectors are equally long.
@@ -20,24 +20,24 @@ struct Matched {
   std::vector<std::size_t> estimate_index;  ///< place in the estimate's trajectory
 };
 
-/// For each pose of the estimate the truth at its stamp plus `offset`: interpolated between two poses at most 0.1 s
-/// apart, else the nearest; only where a truth pose lies within `tolerance`. A truth pose that is not interpolated
-/// serves once, the nearest estimate.
+/// Associates each pose of the estimate with the truth at its stamp plus `offset`: interpolated between two poses at
+/// most 0.1 s apart, else the nearest; only if a truth pose lies within `tolerance`. A truth pose that is not
+/// interpolated is used once, for the nearest estimate.
 Matched associate(const Trajectory& truth, const Trajectory& estimate, StampNs offset = 0,
                   StampNs tolerance = kAssociationTolerance);
-/// Files without stamps: line by line. Empty where the lengths differ.
+/// Associates poses without stamps, by index. Empty if the lengths differ.
 std::optional<Matched> associateByIndex(const std::vector<Pose>& truth, const std::vector<Pose>& estimate);
 
-/// What to add to the estimate's stamps so that it fits the truth.
+/// Offset to be added to the estimate's stamps.
 struct TimeOffset {
   StampNs offset = 0;
-  /// Of the two motions, 1 at best; 0 where the offset lines up the first stamps for want of motion.
+  /// Correlation of the two motions, 1 at best; 0 if the first stamps were aligned for lack of motion.
   double correlation = 0.0;
-  std::size_t matched = 0;  ///< poses that associate() finds with it
+  std::size_t matched = 0;  ///< poses that associate() matches with this offset
 };
-/// By correlating speeds and turning rates, which do not depend on frames, over all shifts that overlap by at least 30
-/// % of the shorter one; resolution about 1 ms. Where neither moves, or the best correlation is under 0.5: first stamp
-/// onto first stamp. Empty for trajectories of fewer than two poses.
+/// Estimates the offset by correlating speeds and angular rates, which do not depend on frames, over all shifts with an
+/// overlap of at least 30 % of the shorter trajectory; resolution about 1 ms. If neither moves, or the best correlation
+/// is under 0.5, aligns the first stamps. Empty for trajectories of fewer than two poses.
 std::optional<TimeOffset> findOffset(const Trajectory& truth, const Trajectory& estimate);
 
 std::ostream& operator<<(std::ostream& out, const TimeOffset& offset);

@@ -3,14 +3,13 @@
 
 namespace urban_nav_core {
 
-/// Probability that a chi-square variable of `dof` degrees of freedom (any number above zero) is at most x.
+/// Returns the probability that a chi-square variable of `dof` degrees of freedom (any positive number) is at most x.
 double chiSquareProbability(double x, double dof);
-/// The x at which that probability is reached, 0 < probability < 1; exact to 1e-10 of its value.
+/// Returns the inverse of chiSquareProbability(), 0 < probability < 1, with a relative error of 1e-10.
 double chiSquareQuantile(double probability, double dof);
 
-/// Where the mean of `count` independent chi-square variables lies with the given probability, the rest shared between
-/// both ends: what a mean NEES is held against (Bar-Shalom, Li, Kirubarajan, Estimation with Applications to Tracking
-/// and Navigation, section 5.4).
+/// Two-sided interval of the mean of `count` independent chi-square variables at a given probability; the test of a
+/// mean NEES (Bar-Shalom, Li, Kirubarajan, Estimation with Applications to Tracking and Navigation, section 5.4).
 struct Band {
   double low = 0.0, high = 0.0;
   bool contains(double value) const { return value >= low && value <= high; }

@@ -5,8 +5,8 @@
 
 namespace urban_nav_core {
 
-/// Between two poses: the translation on a straight line, the rotation at constant rate the shorter way round. share =
-/// 0 gives a, 1 gives b, exactly; beyond, the motion goes on.
+/// Interpolates between two poses: linear in translation, constant angular rate along the shorter rotation. share = 0
+/// gives a, 1 gives b, exactly; other values extrapolate.
 Pose interpolate(const Pose& a, const Pose& b, double share);
 
 }  // namespace urban_nav_core

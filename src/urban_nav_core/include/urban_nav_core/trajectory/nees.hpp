@@ -10,21 +10,20 @@
 
 namespace urban_nav_core {
 
-/// Normalised estimation error squared, d^T covariance^-1 d with truth = boxPlus(estimate, d): on average 6 where the
-/// covariance tells the truth, more where it is too small. Empty where the covariance is not positive definite.
+/// Returns the normalised estimation error squared, d^T covariance^-1 d with truth = boxPlus(estimate, d). Its mean is
+/// 6 for a consistent covariance and larger for an optimistic one. Empty if the covariance is not positive definite.
 std::optional<double> nees(const Pose& truth, const PoseWithCovariance& estimate);
-/// The same of the translation (3 degrees of freedom) and of the rotation alone.
+/// Return the NEES of the translation or the rotation only (3 degrees of freedom).
 std::optional<double> neesTranslation(const Pose& truth, const PoseWithCovariance& estimate);
 std::optional<double> neesRotation(const Pose& truth, const PoseWithCovariance& estimate);
 
-/// Mean NEES of estimates of T_first_body, in the axes of the first pose, against the truth: both trajectories are
-/// taken relative to their first pose. Poses without a proper covariance (the first has none by definition) are left
-/// out and counted.
+/// Mean NEES of estimates of T_first_body, in the axes of the first pose: both trajectories are taken relative to their
+/// first pose. Poses without a positive definite covariance (such as the first, by definition) are omitted and counted.
 struct NeesSummary {
   double mean = 0.0, mean_translation = 0.0, mean_rotation = 0.0;  ///< expected 6, 3, 3
   std::size_t count = 0, left_out = 0;
-  /// 99 % band of `mean` if the errors of all poses were independent. Those of one trajectory are not: it is too narrow
-  /// then, and a mean inside is good news, one outside not yet bad.
+  /// 99 % interval of `mean` for independent errors. Errors along one trajectory are correlated, which makes it too
+  /// narrow: a mean inside is evidence of consistency, one outside is not evidence against it.
   Band band;
 };
 NeesSummary neesOfTrajectory(const std::vector<Pose>& truth, const std::vector<Pose>& estimate,

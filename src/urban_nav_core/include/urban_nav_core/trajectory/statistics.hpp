@@ -7,8 +7,8 @@
 
 namespace urban_nav_core {
 
-/// Returns the length of a path without the noise of standing still, in m: a position counts once it is `step` m from
-/// the last one that counted.
+/// Returns the length of a path, m, without the noise at standstill: a position counts once it is `step` m from the
+/// last counted one.
 double travelledLength(const std::vector<Vector3d>& positions, double step = 0.05);
 
 /// Returns the value below which `share` (0...1) of the values lie; 0 for no values.

@@ -11,20 +11,20 @@
 
 namespace urban_nav_core {
 
-/// Where something was at a time: T_world_body, whatever these two frames are.
+/// Pose T_world_body at a time, for any two frames.
 struct StampedPose {
   StampNs stamp = 0;
   Pose pose;
 };
 
-/// Poses in order of time, each stamp later than the one before.
+/// Poses in order of time, with strictly increasing stamps.
 class Trajectory {
  public:
   Trajectory() = default;
-  /// Asserts the order of the stamps; readers check it before.
+  /// Asserts that stamps increase; readers check this before.
   explicit Trajectory(std::vector<StampedPose> poses);
 
-  /// False, and not added, where the stamp is not later than the last one.
+  /// Appends a pose. Returns false, without effect, if the stamp is not later than the last one.
   bool append(StampNs stamp, const Pose& pose);
 
   bool empty() const { return poses_.empty(); }
@@ -35,24 +35,24 @@ class Trajectory {
   std::vector<StampedPose>::const_iterator begin() const { return poses_.begin(); }
   std::vector<StampedPose>::const_iterator end() const { return poses_.end(); }
 
-  /// The pose at a time between the first and the last stamp, interpolated between neighbours (interpolate.hpp); empty
-  /// outside, or where the neighbours are further apart than `max_gap`.
+  /// Returns the pose at a time between the first and the last stamp, interpolated between neighbours
+  /// (interpolate.hpp); empty outside, or if the neighbours are further apart than `max_gap`.
   std::optional<Pose> at(StampNs stamp, StampNs max_gap) const;
-  /// The index of the pose nearest in time, the earlier of two equally near; the trajectory must not be empty.
+  /// Returns the index of the pose nearest in time, the earlier of two equally near. Requires a non-empty trajectory.
   std::size_t nearest(StampNs stamp) const;
-  /// Length of the path, m.
+  /// Returns the length of the path, m.
   double length() const;
 
  private:
   std::vector<StampedPose> poses_;
 };
 
-/// A T for every pose: T_new_world * T_world_body.
+/// Returns T_new_world * T_world_body for every pose.
 Trajectory transformed(const Pose& T_new_world, const Trajectory& trajectory);
 
-/// Same stamps, and poses equal within `tolerance` (m, rad).
+/// Returns whether stamps are equal and poses agree within `tolerance` (m, rad).
 bool isApprox(const Trajectory& a, const Trajectory& b, double tolerance);
-/// "77 poses from 0.000000000 to 7.600000000 s, 85.3 m".
+/// Prints "77 poses from 0.000000000 to 7.600000000 s, 85.3 m".
 std::ostream& operator<<(std::ostream& out, const Trajectory& trajectory);
 
 }  // namespace urban_nav_core

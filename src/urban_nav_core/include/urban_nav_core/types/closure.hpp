@@ -10,61 +10,61 @@
 
 namespace urban_nav_core {
 
-/// The robot's base_link at a time of a session: how stages name a pose of the trajectory to each other, whatever the
-/// pose graph makes of it. `session`: an id; empty is the session that is being recorded.
+/// Identifies the pose of base_link at a time of a session, independently of the pose graph. `session`: an id; empty is
+/// the session being recorded.
 struct PoseRef {
   std::string session;
   StampNs stamp = 0;
 };
 bool operator==(const PoseRef& a, const PoseRef& b);
 bool operator<(const PoseRef& a, const PoseRef& b);
-/// "1225719873.501685001 s", after the session and a blank where there is one.
+/// Prints "1225719873.501685001 s", preceded by the session and a blank if there is one.
 std::ostream& operator<<(std::ostream& out, const PoseRef& ref);
 
-/// Two times at which the robot saw the same place (Newman et al. 2009, section 3): no transform.
+/// Two times at which the robot was at the same place (Newman et al. 2009, section 3), without a transform.
 struct TopologicalClosure {
-  PoseRef a, b;  ///< b is the later one, whose recognition it is
+  PoseRef a, b;  ///< b is the later one, at which a was recognised
   double probability = 0.0;
 };
 
-/// What the transform of a closure was measured with.
+/// Method by which the transform of a closure was measured.
 enum class ClosureMethod { None, Stereo, Icp };
-/// "none", "stereo", "icp".
+/// Returns "none", "stereo" or "icp".
 const char* toString(ClosureMethod method);
 std::optional<ClosureMethod> parseClosureMethod(std::string_view word);
 
-/// The state of a closure, from its measurement to the pose graph.
+/// State of a closure, from its measurement to the pose graph.
 enum class ClosureVerdict {
-  Accepted,    ///< the transform is right in all its directions, to its covariance
+  Accepted,    ///< the transform is correct in all directions, to its covariance
   Rejected,    ///< an outlier, or there is no transform
-  Waiting,     ///< not decided: the transform is not measured, or the graph lacks a second closure that supports it
-  Degenerate,  ///< of an alignment alone: right but for the directions that it names free
+  Waiting,     ///< undecided: the transform is not measured, or the graph lacks a second closure that supports it
+  Degenerate,  ///< alignments only: correct except along the given free directions
 };
-/// "accepted", "rejected", "waiting", "degenerate".
+/// Returns "accepted", "rejected", "waiting" or "degenerate".
 const char* toString(ClosureVerdict verdict);
 std::optional<ClosureVerdict> parseClosureVerdict(std::string_view word);
 
-/// A closure with its transform, or why there is none. The information is zero unless the verdict is Accepted.
+/// Closure with its transform, or the reason why there is none. The information is zero unless the verdict is Accepted.
 struct MetricClosure {
   PoseRef a, b;
   Constraint measured;                    ///< T_a_b
-  std::vector<Vector6d> free_directions;  ///< unit tangents (rho, phi) along which nothing is known
-  double probability = 0.0;               ///< of the places being one, as the recognition said
+  std::vector<Vector6d> free_directions;  ///< unit tangents (rho, phi) without information
+  double probability = 0.0;               ///< that both places are the same, from place recognition
   ClosureMethod method = ClosureMethod::None;
-  bool odometry_gate = false;  ///< the transform is one that odometry allows, as far as it goes
+  bool odometry_gate = false;  ///< the transform is consistent with odometry, where odometry is available
   ClosureVerdict verdict = ClosureVerdict::Rejected;
-  int reason = 0;  ///< enumerator of the stage that decided, 0: none
+  int reason = 0;  ///< enumerator of the stage that decided; 0: none
   std::string reason_name, sentence;
-  std::string evidence;  ///< in the words of that stage, for `why`
+  std::string evidence;  ///< description by that stage, for `why`
   std::string source;    ///< that stage ("loop_metric")
 };
 
-/// A transform between two times that any other stage has found: planes seen again, a person.
+/// Transform between two times from any other source: re-observed planes, a user's assertion.
 struct RelativeConstraint {
   PoseRef a, b;
-  Constraint measured;  ///< T_a_b
+  Constraint measured;  ///< origin ("laser_mapper")
   std::string kind;     ///< "plane", "asserted"
-  std::string source;   ///< who says so ("laser_mapper")
+  std::string source;   ///< stage or user that states it ("laser_mapper")
 };
 
 }  // namespace urban_nav_core

@@ -6,16 +6,17 @@
 
 namespace urban_nav_core {
 
-/// Root of the project's exceptions; only its two kinds are thrown. Code that handles both kinds alike catches Error.
-/// The edges (the command, the nodelets) print it as `where: found: allowed ...`, for example
-/// `config.yaml:12: swf_vo.window = 0: allowed 1...100000 (frames)`; empty parts are left out.
+/// Base class of all exceptions of the project; only the two derived classes are thrown.
+/// The command and the nodelets print `where: found: expected ...`, for example
+/// `poses.tum:2: 7 columns: expected 8: stamp x y z qx qy qz qw`; empty parts are omitted.
 /// Faults of single measurements are not thrown: they are a Status in the output of a stage.
 class Error : public std::runtime_error {
  public:
   struct Parts {
     std::string where;    ///< file, file:line or option; may be empty
     std::string found;    ///< key and value, or what is wrong
-    std::string allowed;  ///< what would be valid, as it reads after the word "allowed"; may be empty
+    std::string allowed;  ///< what would be valid, printed after "expected"; printed unchanged if it begins with
+                          ///< "allowed ", as ranges and values of parameters do; may be empty
   };
 
   const Parts& parts() const { return parts_; }

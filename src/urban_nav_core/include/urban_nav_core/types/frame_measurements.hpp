@@ -8,20 +8,20 @@
 
 namespace urban_nav_core {
 
-/// Comparisons of a stereo frame with other measurements, as odometry makes them. A sigma of 0: not compared. Errors
-/// are what is left after the corrections that odometry has estimated (bias, scale, delay); sigmas are their standard
-/// deviations.
+/// Comparisons of a stereo frame with other measurements, made by odometry. A sigma of 0: not compared. Errors are
+/// residuals after the corrections estimated by odometry (bias, scale, delay); sigmas are their standard deviations.
 struct FrameMeasurements {
   StampNs stamp = 0;
   /// Excess of disparities over those predicted from earlier frames, px.
   double disparity_step_px = 0.0, disparity_step_sigma_px = 0.0;
-  /// Rotation by images less that by the gyroscope over one step, rad, about the axes of base_link; sigma of each axis.
+  /// Rotation from images minus rotation from the gyroscope over one step, rad, about the axes of base_link; sigma of
+  /// each axis.
   Eigen::Vector3d turn_error = Eigen::Vector3d::Zero();
   double turn_sigma = 0.0;
-  /// Motion by images along x and y of base_link over one step, m, its excess along x over that by wheels, and the
-  /// standard deviation of either coordinate.
+  /// Motion from images along x and y of base_link over one step, m; its excess along x over that of the wheels; and
+  /// the standard deviation of either coordinate.
   double forward = 0.0, sideways = 0.0, forward_error = 0.0, forward_sigma = 0.0;
-  /// Delay of the IMU's stamps on the clock of the cameras as estimated by now, s.
+  /// Current estimate of the delay of the IMU's stamps relative to the clock of the cameras, s.
   double imu_delay = 0.0, imu_delay_sigma = 0.0;
 };
 

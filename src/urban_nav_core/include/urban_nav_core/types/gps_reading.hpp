@@ -7,12 +7,12 @@
 
 namespace urban_nav_core {
 
-/// A position that a GPS receiver measured.
+/// Position measured by a GPS receiver.
 struct GpsReading {
   StampNs stamp = 0;
   double latitude = 0.0, longitude = 0.0;  ///< deg, WGS 84
-  double height = 0.0;                     ///< m over the ellipsoid
-  Vector3d sigma = Vector3d::Ones();       ///< m, east, north, up, as the receiver states them
+  double height = 0.0;                     ///< m above the ellipsoid
+  Vector3d sigma = Vector3d::Ones();       ///< m, east, north, up, as stated by the receiver
 
   Geodetic position() const {
     constexpr double kToRad = 3.14159265358979323846 / 180.0;
@@ -20,10 +20,10 @@ struct GpsReading {
   }
 };
 
-/// A position of the robot's antenna.
+/// Position of the robot's antenna.
 struct PositionFix {
   GpsReading reading;
-  Vector3d p_base = Vector3d::Zero();  ///< m, of the antenna, in base_link
+  Vector3d p_base = Vector3d::Zero();  ///< m, antenna in base_link
 };
 
 }  // namespace urban_nav_core

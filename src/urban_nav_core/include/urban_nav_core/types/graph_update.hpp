@@ -9,7 +9,7 @@
 
 namespace urban_nav_core {
 
-/// Where base_link was at a time, in the map.
+/// Pose of base_link in the map at a time.
 struct StampedMapPose {
   StampNs stamp = 0;
   Pose T_map_base;
@@ -21,30 +21,30 @@ struct TrajectorySegment {
   std::vector<StampedMapPose> poses;
 };
 
-/// Poses that moved by more than 1 cm or 0.02 deg since revision `previous`. A subscriber with another revision has
-/// missed an update and requests the trajectory.
+/// Poses that moved by more than 1 cm or 0.02 deg since revision `previous`. A subscriber at another revision has
+/// missed an update and must request the trajectory.
 struct GraphUpdate {
   std::int64_t revision = 0;
   std::int64_t previous = 0;
   std::vector<TrajectorySegment> segments;
 };
 
-/// Names an edge of the graph.
+/// Identifies an edge of the graph.
 struct EdgeRef {
   PoseRef a, b;
   std::string kind;    ///< odometry, stereo, icp, plane, session, asserted
-  std::string source;  ///< who measured it
+  std::string source;  ///< stage that measured it
 };
 bool operator==(const EdgeRef& a, const EdgeRef& b);
 
 /// A discontinuous correction of the robot's pose in the map, caused by closures; its pose in `odom` is continuous.
 struct PoseCorrection {
-  std::int64_t revision = 0;  ///< the first with the new pose
-  PoseRef at;                 ///< the robot's pose
+  std::int64_t revision = 0;  ///< first revision with the new pose
+  PoseRef at;                 ///< robot's pose that was corrected
   Pose T_map_base_before, T_map_base_after;
-  int reason = 0;  ///< enumerator of the stage, 0: none
+  int reason = 0;  ///< enumerator of the stage; 0: none
   std::string reason_name, sentence;
-  std::vector<EdgeRef> causing_edges;  ///< the closures that were accepted, rejected or removed
+  std::vector<EdgeRef> causing_edges;  ///< closures that were accepted, rejected or removed
 };
 
 }  // namespace urban_nav_core

@@ -10,17 +10,17 @@
 
 namespace urban_nav_core {
 
-/// Session of a live odometry, which decides when it begins and what its id is. All other stages follow.
+/// Session of a live odometry, which defines its beginning and id for all other stages.
 struct OdometrySession {
   std::string id;  ///< 20 hexadecimal digits
   std::string name, robot, recording;
-  StampNs start = 0;  ///< its first frame
+  StampNs start = 0;  ///< stamp of the first frame
 };
 
-/// Shared by the steps of a session; null where an odometry does not announce it.
+/// Shared by the steps of a session; null if the odometry does not publish it.
 using OdometrySessionPtr = std::shared_ptr<const OdometrySession>;
 
-/// Step of a live odometry, and the session to which both of its poses belong.
+/// Step of a live odometry, and the session of both of its poses.
 struct SessionStep : RelativePose {
   SessionStep() = default;
   SessionStep(RelativePose step, OdometrySessionPtr announced = nullptr)  // implicit: a step whose session is unknown
@@ -28,7 +28,7 @@ struct SessionStep : RelativePose {
   OdometrySessionPtr session;
 };
 
-/// Returns the id; empty: not announced.
+/// Returns the id; empty: not published.
 inline const std::string& sessionId(const OdometrySessionPtr& session) {
   static const std::string none;
   return session ? session->id : none;

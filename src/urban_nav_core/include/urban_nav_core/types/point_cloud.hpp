@@ -6,11 +6,10 @@
 
 namespace urban_nav_core {
 
-/// Points of one frame, m, as a device or a file gave them: some may hold NaN (a beam without return), none is left
-/// out.
+/// Points of one frame, m, in the order of the device or file. None is omitted: points without a return contain NaN.
 struct PointCloud {
   std::vector<Eigen::Vector3f> points;
-  /// Where the beam of each point came from, m, in the frame of the points; empty where that is not known.
+  /// Origin of each point's beam, m, in the frame of the points; empty if unknown.
   std::vector<Eigen::Vector3f> origins;
 };
 

@@ -7,8 +7,8 @@
 
 namespace urban_nav_core {
 
-/// Specific force that an accelerometer measured at a time, in the axes of base_link, m/s2. At rest it is 9.8 upwards,
-/// as in sensor_msgs/Imu.
+/// Specific force measured by an accelerometer, in the axes of base_link, m/s2. At rest it is 9.8 upwards, as in
+/// sensor_msgs/Imu.
 struct SpecificForce {
   StampNs stamp = 0;
   Eigen::Vector3d force = Eigen::Vector3d::Zero();

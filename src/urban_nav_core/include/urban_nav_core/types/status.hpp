@@ -8,21 +8,21 @@
 
 namespace urban_nav_core {
 
-/// What a stage says of its own trustworthiness, for each output. Failure of data is one of these, not an exception.
+/// State of a stage's output. Faults of the data are reported here, not as exceptions.
 enum class Health {
   Ok,         ///< works as designed
-  Degraded,   ///< answers, with less to go on than it should have; the covariance says how much less
-  Lost,       ///< answers by prediction alone; the covariance grows
+  Degraded,   ///< output with reduced input; the covariance is larger accordingly
+  Lost,       ///< output by prediction only; the covariance grows
   Recovered,  ///< the first good output after Lost
 };
 
-/// "OK", "DEGRADED", "LOST", "RECOVERED".
+/// Returns "OK", "DEGRADED", "LOST" or "RECOVERED".
 const char* toString(Health health);
-/// The inverse of toString; empty for any other word.
+/// Returns the value of a name of toString(); nullopt for any other word.
 std::optional<Health> parseHealth(std::string_view text);
 std::ostream& operator<<(std::ostream& out, Health health);
 
-/// Health with its reason: an enumerator of the stage (0: none) and a sentence for a person.
+/// Health with its reason: an enumerator of the stage (0: none) and a message for users.
 struct Status {
   Health health = Health::Ok;
   int reason = 0;
@@ -30,7 +30,7 @@ struct Status {
 };
 
 bool operator==(const Status& a, const Status& b);
-/// "DEGRADED: 11 features, 20 wanted".
+/// Prints "DEGRADED: 11 features, 20 wanted".
 std::ostream& operator<<(std::ostream& out, const Status& status);
 
 }  // namespace urban_nav_core

@@ -12,7 +12,7 @@
 namespace urban_nav_core {
 namespace {
 
-/// Axes are found in all spellings of x, y, z; other columns by their names.
+/// Finds axes in all spellings of x, y, z, and other columns by their exact names.
 std::optional<std::size_t> findWanted(const std::vector<std::string>& header, const std::string& wanted) {
   const auto exact = std::find(header.begin(), header.end(), wanted);
   if (exact != header.end()) return static_cast<std::size_t>(exact - header.begin());

@@ -12,12 +12,12 @@
 namespace urban_nav_core {
 namespace {
 
-constexpr double kFarthest = 1e9;    // m: no coordinate of this world
-constexpr double kFarAway = 1000.0;  // m: there a float is 0.06 mm coarse
+constexpr double kFarthest = 1e9;    // m: larger coordinates are invalid
+constexpr double kFarAway = 1000.0;  // m: the resolution of float is 0.06 mm there
 
 bool beginsWith(std::string_view content, std::string_view word) { return content.substr(0, word.size()) == word; }
 
-/// Whether the first line that is no comment is one of a PCD header: VERSION may be missing, as PCL allows.
+/// Returns whether the first line that is not a comment belongs to a PCD header: VERSION may be missing, as in PCL.
 bool isPcd(std::string_view content) {
   if (beginsWith(content, "# .PCD")) return true;
   for (cloud_formats::HeaderLines lines(content); const auto line = lines.next();) {
@@ -50,7 +50,7 @@ std::vector<Eigen::Vector3f> relativeTo(const Eigen::Vector3d& offset, const std
   return made;
 }
 
-/// The middle of the finite points by axis; zero where there is none.
+/// Returns the median of the finite points by axis; zero if there are none.
 template <class Points>
 Eigen::Vector3d medianPoint(const Points& points) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();

@@ -14,14 +14,14 @@ constexpr std::size_t kOldHeader = 227;  // bytes, of version 1.2
 constexpr std::size_t kNewHeader = 375;  // of version 1.4
 constexpr std::size_t kLeastRecord = 20;
 
-/// What the points need of a public header block (ASPRS, LAS Specification 1.4 R15, section 2.4).
+/// Fields of the public header block that reading points requires (ASPRS, LAS Specification 1.4 R15, section 2.4).
 struct LasHeader {
   std::size_t points_at = 0, record = 0, points = 0;
   std::array<double, 3> scale{}, offset{};
 };
 
 LasHeader readLasHeader(std::string_view bytes, const std::string& name) {
-  if (bytes.size() < kOldHeader) throw UserError(name, "ends within its header", "a whole LAS file");
+  if (bytes.size() < kOldHeader) throw UserError(name, "ends within its header", "a complete LAS file");
   const auto at = [&](std::size_t offset, BinaryNumber number) { return readBinary(&bytes[offset], number, false); };
   const double minor = at(25, kU8);
   if (at(24, kU8) != 1.0 || minor > 4.0)
@@ -41,7 +41,7 @@ LasHeader readLasHeader(std::string_view bytes, const std::string& name) {
     header.scale[axis] = at(131 + 8 * axis, kF64);
     header.offset[axis] = at(155 + 8 * axis, kF64);
     if (!std::isfinite(header.scale[axis]) || header.scale[axis] == 0.0 || !std::isfinite(header.offset[axis]))
-      throw UserError(name, "a scale or an offset of the coordinates that is no number, or zero", "finite numbers");
+      throw UserError(name, "a scale or an offset of the coordinates that is zero or not finite", "finite numbers");
   }
   return header;
 }
@@ -53,7 +53,7 @@ Vertices parseLas(std::string_view content, const std::string& name) {
   if (header.record < kLeastRecord)
     throw UserError(name, "records of " + std::to_string(header.record) + " bytes", "at least 20");
   if (header.points_at > content.size() || header.points > (content.size() - header.points_at) / header.record)
-    throw UserError(name, "ends before its " + std::to_string(header.points) + " points", "a whole file");
+    throw UserError(name, "ends before its " + std::to_string(header.points) + " points", "a complete file");
   Vertices cloud;
   cloud.points.reserve(header.points);
   for (std::size_t i = 0; i < header.points; ++i) {

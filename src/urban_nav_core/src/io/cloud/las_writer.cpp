@@ -20,7 +20,7 @@ constexpr std::size_t kLasHeader = 375, kVlrHeader = 54, kAttributeRow = 192, kL
 constexpr std::uint16_t kAdjustedGpsTime = 1, kWkt = 16;  // of the global encoding
 constexpr double kAdjustment = 1e9;                       // s
 constexpr std::int64_t kGpsEpoch = 315'964'800;           // s, 1980-01-06 in Unix time
-/// Beginnings of leap seconds since then in Unix time (IERS Bulletin C).
+/// Introductions of leap seconds since then, in Unix time (IERS Bulletin C).
 constexpr std::array<std::int64_t, 18> kLeapSeconds = {
     362'793'600, 394'329'600,   425'865'600,   489'024'000,   567'993'600,   631'152'000,
     662'688'000, 709'948'800,   741'484'800,   773'020'800,   820'454'400,   867'715'200,
@@ -111,7 +111,7 @@ void LasWriter::append(const LasPoint& point, std::string_view attributes) {
     const auto i = static_cast<std::size_t>(axis);
     const double steps = std::round((point.p(axis) - offset_(axis)) / kLasScale);
     if (!(std::abs(steps) < std::numeric_limits<std::int32_t>::max()))
-      throw DataError(path_, "a point lies over 200 km away from the first one, or is not finite", "");
+      throw DataError(path_, "a point is more than 200 km from the first one, or not finite", "");
     const auto stored = static_cast<std::int32_t>(steps);
     appendLittleEndian(record_, stored);
     low_[i] = points() == 0 ? stored : std::min(low_[i], stored);
@@ -146,7 +146,7 @@ std::string LasWriter::header() const {
   appendLittleEndian(bytes, std::uint32_t{attributes_.empty() ? 1U : 2U});
   appendLittleEndian(bytes, std::uint8_t{7});
   appendLittleEndian(bytes, static_cast<std::uint16_t>(recordBytes(attributes_)));
-  appendPadded(bytes, "", 24);  // numbers of points as older versions count them
+  appendPadded(bytes, "", 24);  // legacy numbers of points
   for (int axis = 0; axis < 3; ++axis) appendLittleEndian(bytes, kLasScale);
   for (int axis = 0; axis < 3; ++axis) appendLittleEndian(bytes, offset_(axis));
   for (std::size_t i = 0; i < 3; ++i)

@@ -21,7 +21,7 @@ double as(const std::array<char, 8>& bytes) {
 std::string decodeContent(std::string_view content) {
   for (const std::string_view magic : {"ply\n", "ply\r", "LASF", "# .PCD"})
     if (content.substr(0, magic.size()) == magic) return {};
-  // A mark of four bytes at most, or UTF-16 without one, shows at the beginning.
+  // A byte order mark, or UTF-16 without one, is detected from the beginning.
   const std::string head(content.substr(0, 512));
   return decodeText(head) == head ? std::string() : decodeText(std::string(content));
 }

@@ -36,7 +36,7 @@ std::size_t wholeNumber(std::string_view word, const std::string& where, std::in
 
 constexpr std::int64_t kMostPoints = std::int64_t{1} << 40U;
 
-/// A line with one word for each field.
+/// Reads a line with one word per field.
 void readFieldLine(const std::vector<std::string_view>& words, PcdHeader& header, const std::string& where) {
   if (words.size() != header.fields.size() + 1)
     throw UserError(where,
@@ -115,7 +115,7 @@ std::array<std::size_t, 3> findCoordinates(const PcdHeader& header, const std::s
 }
 
 UserError tooShort(const std::string& name, const PcdHeader& header) {
-  return UserError(name, "ends before its " + std::to_string(header.points) + " points", "a whole file");
+  return UserError(name, "ends before its " + std::to_string(header.points) + " points", "a complete file");
 }
 
 Vertices asciiPoints(const PcdHeader& header, HeaderLines& lines, const std::string& name) {
@@ -148,7 +148,7 @@ Vertices asciiPoints(const PcdHeader& header, HeaderLines& lines, const std::str
   return cloud;
 }
 
-/// `by_field`: all of the first field, then all of the second, as in a compressed file; else point by point.
+/// `by_field`: structure of arrays, as in a compressed file; otherwise point by point.
 Vertices binaryPoints(const PcdHeader& header, std::string_view bytes, bool by_field, const std::string& name) {
   const auto columns = findCoordinates(header, name);
   std::size_t row = 0;
@@ -176,10 +176,10 @@ Vertices compressedPoints(const PcdHeader& header, std::string_view bytes, const
   std::uint32_t packed = 0, plain = 0;
   std::memcpy(&packed, bytes.data(), 4);
   std::memcpy(&plain, bytes.data() + 4, 4);
-  // A copy of LZF makes at most 264 bytes of three: a size beyond that is a lie that would take memory.
+  // Three bytes of LZF decompress to at most 264: a larger size is invalid and would waste memory.
   if (packed > bytes.size() - 8 || plain / 88 > packed) throw tooShort(name, header);
   const auto unpacked = decompressLzf(bytes.substr(8, packed), plain);
-  if (!unpacked) throw UserError(name, "the compressed points are damaged", "a whole file");
+  if (!unpacked) throw UserError(name, "the compressed points are damaged", "a complete file");
   return binaryPoints(header, *unpacked, true, name);
 }
 

@@ -15,7 +15,7 @@ namespace {
 struct Property {
   std::string name;
   BinaryNumber number;
-  std::optional<BinaryNumber> length;  // of a list: how its length is written
+  std::optional<BinaryNumber> length;  // of a list: type of its length
 };
 struct Element {
   std::string name;
@@ -58,7 +58,7 @@ void readPlyHeaderLine(const std::vector<std::string_view>& words, PlyHeader& he
     header.elements.back().properties.push_back({std::string(words[2]), parseBinaryNumber(words[1], where), {}});
   } else if (words[0] == "property" && words.size() == 5 && words[1] == "list" && !header.elements.empty()) {
     const BinaryNumber length = parseBinaryNumber(words[2], where);
-    if (length.kind == 'F') throw UserError(where, "a list whose length is no whole number", "uchar, int, ...");
+    if (length.kind == 'F') throw UserError(where, "a list whose length is not an integer type", "uchar, int, ...");
     header.elements.back().properties.push_back({std::string(words[4]), parseBinaryNumber(words[3], where), length});
   } else if (words[0] != "comment" && words[0] != "obj_info") {
     throw UserError(where, "`" + std::string(words[0]) + "`", "format, element, property, comment, end_header");
@@ -81,7 +81,7 @@ PlyHeader readPlyHeader(HeaderLines& lines, const std::string& name) {
   throw UserError(name, "the header does not end", "a line end_header");
 }
 
-/// The columns of three properties; empty where one is missing or a list.
+/// Columns of three properties; empty if one is missing or a list.
 using Columns = std::array<std::size_t, 3>;
 std::optional<Columns> findColumns(const Element& vertex, const std::array<const char*, 3>& names) {
   Columns columns{};
@@ -94,7 +94,7 @@ std::optional<Columns> findColumns(const Element& vertex, const std::array<const
   return columns;
 }
 
-/// Where the numbers of a vertex stand.
+/// Columns of the properties of a vertex.
 struct Vertex {
   Columns point{};
   std::optional<Columns> origin;
@@ -108,10 +108,10 @@ Vertex parseVertex(const Element& element, const std::string& name) {
 
 UserError tooShort(const std::string& name, const Element& element) {
   return UserError(name, "ends before its " + std::to_string(element.count) + " of element " + element.name,
-                   "a whole file");
+                   "a complete file");
 }
 
-/// The numbers of a file one after another, whatever its format.
+/// Reads the numbers of a binary file in sequence, in either byte order.
 class BinaryNumbers {
  public:
   BinaryNumbers(std::string_view bytes, bool swap) : bytes_(bytes), swap_(swap) {}
@@ -136,7 +136,7 @@ class BinaryNumbers {
   bool swap_;
 };
 
-/// Words between blanks and ends of lines, as the format allows them to be laid out.
+/// Reads words separated by blanks and line ends, which the format treats alike.
 class AsciiNumbers {
  public:
   AsciiNumbers(HeaderLines& lines, std::string name) : lines_(lines), name_(std::move(name)) {}
@@ -154,10 +154,10 @@ class AsciiNumbers {
     return count == 0;
   }
   std::size_t left() const { return words_.size() - at_ + lines_.rest().size(); }
-  /// A row with a number too many would displace all after it.
+  /// Rejects a row with too many numbers, which would shift all following ones.
   void expectEnd() {
     if (nextWord())
-      throw UserError(atLine(name_, lines_.number()), "more numbers than the header announces", "as many");
+      throw UserError(atLine(name_, lines_.number()), "more numbers than declared in the header", "as many");
   }
 
  private:
@@ -177,7 +177,7 @@ class AsciiNumbers {
   std::size_t at_ = 0;
 };
 
-/// One row of an element: its numbers into `row`, 0 where a list is, which is skipped. Returns whether it is all there.
+/// Reads one row of an element into `row`; lists are skipped and yield 0. Returns whether the row is complete.
 template <class Numbers>
 bool readRow(const Element& element, Numbers& numbers, std::vector<double>& row) {
   row.clear();

@@ -65,7 +65,7 @@ template void appendLittleEndian(std::string&, std::uint16_t);
 template void appendLittleEndian(std::string&, std::uint32_t);
 template void appendLittleEndian(std::string&, std::int32_t);
 
-// The header's length must not depend on the number of vertices: a comment of blanks takes the digits that it lacks.
+// The header's length must not depend on the number of vertices: a comment is padded with blanks.
 PlyWriter::PlyWriter(const std::string& path, PlyLayout layout)
     : layout_([&] {
         layout.comments.emplace_back(kCountDigits, ' ');

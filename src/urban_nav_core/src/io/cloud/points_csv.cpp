@@ -37,8 +37,9 @@ Axes findAxes(const TextTable& table) {
 }
 
 [[noreturn]] void refuseCount(const std::string& name, std::size_t promised, std::size_t found) {
-  throw UserError(name, "ends after " + std::to_string(found) + " points, and announces " + std::to_string(promised),
-                  "a whole file");
+  throw UserError(name,
+                  "ends after " + std::to_string(found) + " points, the header declares " + std::to_string(promised),
+                  "a complete file");
 }
 
 }  // namespace
@@ -48,7 +49,7 @@ Vertices parsePoints(std::string_view content, const std::string& name) {
   const Axes axes = findAxes(table);
   Vertices cloud;
   cloud.points.reserve(countLines(content) + 1);
-  std::size_t promised = 0;  // by the counts that some programs write above their points
+  std::size_t promised = 0;  // from the point counts that some programs write above the points
   table.forEachRow([&](const TableRow& row) {
     if (const auto count = row.cells.size() == 1 ? parseInteger(row.cells.front()) : std::nullopt;
         count && *count >= 0) {
@@ -63,7 +64,8 @@ Vertices parsePoints(std::string_view content, const std::string& name) {
         throw UserError(table.where(row), std::to_string(row.cells.size()) + " columns",
                         "at least " + std::to_string(column + 1));
       const std::string_view cell = row.cells[column];
-      const bool is_left_empty = cell.empty() && row.cells.size() == table.width();  // NaN, as some programs write it
+      const bool is_left_empty = cell.empty() && row.cells.size() == table.width();  // NaN in the output of some
+                                                                                     // programs
       const auto value = is_left_empty ? std::numeric_limits<double>::quiet_NaN() : parseCell(cell);
       if (!value) throw UserError(table.where(row), quotedCell(cell), "a number");
       point[static_cast<Eigen::Index>(axis)] = axes.units[axis] * *value;

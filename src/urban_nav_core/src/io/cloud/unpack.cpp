@@ -26,7 +26,7 @@ std::string gunzip(std::string_view content, const std::string& name) {
   const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, &inflateEnd);
   std::string plain;
   std::size_t taken = 0;
-  while (taken < content.size()) {  // one member after another, as gzip allows
+  while (taken < content.size()) {  // a gzip file may have several members
     int status = Z_OK;
     while (status != Z_STREAM_END) {
       if (stream.avail_in == 0 && taken < content.size()) {
@@ -41,8 +41,9 @@ std::string gunzip(std::string_view content, const std::string& name) {
       stream.avail_out = static_cast<uInt>(kPiece);
       status = inflate(&stream, Z_NO_FLUSH);
       plain.resize(before + kPiece - stream.avail_out);
-      if (status == Z_BUF_ERROR) throw UserError(name, "the gzip stream ends too early", "a whole file");
-      if (status != Z_OK && status != Z_STREAM_END) throw UserError(name, "the gzip stream is damaged", "a whole file");
+      if (status == Z_BUF_ERROR) throw UserError(name, "the gzip stream ends too early", "a complete file");
+      if (status != Z_OK && status != Z_STREAM_END)
+        throw UserError(name, "the gzip stream is damaged", "a complete file");
       if (plain.size() > limit)
         throw UserError(name, "more than " + std::to_string(limit >> 20U) + " MB when unpacked",
                         "an eighth of memory_mb = " + std::to_string(memoryLimit() >> 20U) + "; or the unpacked file");
@@ -78,7 +79,7 @@ std::optional<std::string> decompressLzf(std::string_view packed, std::size_t si
     const std::size_t back = ((control & 31U) << 8U) + byte() + 1;
     length += 2;
     if (back > plain.size() || length > size - plain.size()) return std::nullopt;
-    for (std::size_t i = 0; i < length; ++i) plain.push_back(plain[plain.size() - back]);  // may overlap what it makes
+    for (std::size_t i = 0; i < length; ++i) plain.push_back(plain[plain.size() - back]);  // may overlap its own output
   }
   if (plain.size() != size) return std::nullopt;
   return plain;

@@ -12,14 +12,14 @@ void CloudConvention::archive(Archive& archive) {
   constexpr std::size_t kMost = 65535;
   archive.require(fault <= PointTimesFault::Clock && rings <= Rings::Elevation && ring_count >= 1 &&
                       ring_count <= kMost && columns >= 1 && columns <= kMost && elevations.size() < ring_count + 1,
-                  "a convention of clouds that there is not");
+                  "an unknown cloud convention");
   constexpr double kMostSeconds = 1e6;
   archive.require(times.unit <= PointTimes::Unit::Nanoseconds && times.reference <= PointTimes::Reference::Absolute,
-                  "a unit that there is not");
-  archive.require(std::abs(middle) <= 1.0 && sweep_s >= 0.0 && sweep_s <= kMostSeconds, "times that there are not");
+                  "an unknown unit");
+  archive.require(std::abs(middle) <= 1.0 && sweep_s >= 0.0 && sweep_s <= kMostSeconds, "unknown times");
   archive.require(std::is_sorted(elevations.begin(), elevations.end()) &&
                       std::all_of(order.begin(), order.end(), [this](std::uint16_t ring) { return ring < ring_count; }),
-                  "rings that there are not");
+                  "unknown rings");
 }
 
 }  // namespace urban_nav_core

@@ -12,11 +12,11 @@ namespace urban_nav_core {
 
 namespace {
 
-constexpr std::size_t kFewestPoints = 50;  // of a cloud that counts
-constexpr double kFullIntensity = 255.0;   // intensity of a beam at most
+constexpr std::size_t kFewestPoints = 50;  // least number of points of a cloud that is counted
+constexpr double kFullIntensity = 255.0;   // largest intensity of a beam
 constexpr double kUnitRange = 1.0, kTwelveBits = 4095.0, kSixteenBits = 65535.0;
 
-/// Returns the range of the values of an intensity, by the largest of them.
+/// Returns the full scale of an intensity field, from its largest value.
 double findScale(const FieldStatistics& field, double largest) {
   if (largest <= kUnitRange) return field.is_whole ? 1.0 : kFullIntensity;
   for (const double range : {kFullIntensity, kTwelveBits, kSixteenBits})
@@ -24,7 +24,7 @@ double findScale(const FieldStatistics& field, double largest) {
   return kFullIntensity / largest;
 }
 
-/// Calibrated reflectances take the place of intensities that are counts of photons.
+/// Prefers calibrated reflectances to intensities in photon counts.
 void findIntensity(const std::vector<CloudStatistics>& clouds, CloudConvention& convention) {
   struct Choice {
     const FieldStatistics* field = nullptr;

@@ -40,7 +40,7 @@ std::size_t numberSize(CloudField::Number number) {
     case CloudField::Number::Float32: return 4;
     case CloudField::Number::Float64: return 8;
   }
-  return 0;  // a kind that messages do not know
+  return 0;  // number type unknown to messages
 }
 
 CloudPoints::Field::Field(const CloudField& field, bool is_big_endian)
@@ -69,7 +69,7 @@ CloudPoints::CloudPoints(const CloudView& cloud) : cloud_(cloud) {
   for (const char* name : {"x", "y", "z"})
     if (!field(name)) fault_ = std::string("has no field ") + name + " with one number";
   if (!fault_.empty()) return;
-  std::size_t record = 0;  // bytes of a point up to the end of its last field: the last one may end there
+  std::size_t record = 0;  // bytes of a point up to the end of its last field: the last point may end there
   for (const CloudField& each : cloud.fields)
     if (isReadable(each, cloud.point_step)) record = std::max(record, each.offset + numberSize(each.number));
   columns_ = std::max<std::size_t>(1, cloud.width);
@@ -78,8 +78,8 @@ CloudPoints::CloudPoints(const CloudView& cloud) : cloud_(cloud) {
     missing_ = rows_ == 0 ? 0 : columns_ * rows_;
     return;
   }
-  const std::size_t most = (cloud.size - record) / cloud.point_step + 1;  // points that lie one after the other
-  if (columns_ > most) {                                                  // not even one row
+  const std::size_t most = (cloud.size - record) / cloud.point_step + 1;  // consecutive points
+  if (columns_ > most) {                                                  // less than one row
     missing_ = rows_ == 0 ? 0 : columns_ * rows_ - most;
     size_ = rows_ == 0 ? 0 : most;
     row_step_ = cloud.point_step * columns_;

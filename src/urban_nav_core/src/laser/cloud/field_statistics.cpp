@@ -10,10 +10,10 @@ namespace urban_nav_core {
 
 namespace {
 
-constexpr double kOrigin = 1e-3;                              // m: a point within that was not measured
-constexpr double kFarthestPoint = 2000.0;                     // m: no LiDAR of a robot measures that far
+constexpr double kOrigin = 1e-3;                              // m: nearer points were not measured
+constexpr double kFarthestPoint = 2000.0;                     // m: beyond the range of any LiDAR of a robot
 constexpr double kShortestSweep = 0.01, kLongestSweep = 1.0;  // s
-constexpr double kTolerance = 1e-3;                           // of both: values are rounded
+constexpr double kTolerance = 1e-3;                           // of both limits: values are rounded
 
 std::string toLower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),

@@ -13,24 +13,24 @@
 
 namespace urban_nav_core {
 
-/// Points of a cloud that a sweep can hold: their first bytes, in the order of storage, and their places.
+/// Usable points of a cloud: pointers to their first bytes, in storage order, and their indices.
 struct UsablePoints {
   std::vector<const std::uint8_t*> bytes;
-  std::vector<std::size_t> places;  ///< of CloudPoints
+  std::vector<std::size_t> places;  ///< in CloudPoints
   std::vector<float> x, y, z;       ///< m
 };
-/// Returns the points with finite coordinates of a range up to that of any LiDAR.
+/// Returns the points with finite coordinates within the range of any LiDAR.
 UsablePoints findUsablePoints(const CloudPoints& points);
 
-/// Values of one field over the usable points of a cloud.
+/// Statistics of one field over the usable points of a cloud.
 struct FieldStatistics {
   std::string name;
   CloudField::Number number = CloudField::Number::Float32;
   double first = 0.0, last = 0.0;      ///< smallest and largest value, without outliers
-  double trend = 0.0;                  ///< correlation with the order of storage, -1...1
-  double rising = 0.0, falling = 0.0;  ///< shares of neighbours in the order of storage
-  std::size_t distinct = 0;            ///< values, up to kMostDistinct
-  bool is_whole = false;               ///< all values are whole numbers
+  double trend = 0.0;                  ///< correlation with storage order, -1...1
+  double rising = 0.0, falling = 0.0;  ///< shares of consecutive pairs in storage order
+  std::size_t distinct = 0;            ///< number of distinct values, up to kMostDistinct
+  bool is_whole = false;               ///< all values are integers
 
   static constexpr std::size_t kMostDistinct = 1000;
   double span() const { return last - first; }
@@ -38,24 +38,24 @@ struct FieldStatistics {
 };
 FieldStatistics summarise(const CloudField& field, const CloudPoints& points, const UsablePoints& usable);
 
-/// Returns the smallest and the largest of values, at least one, without those far outside the bulk, which belong to
-/// points that were not measured.
+/// Returns the smallest and the largest of one or more values, without outliers, which belong to points that were not
+/// measured.
 std::pair<double, double> boundsWithoutOutliers(std::vector<double> values);
 
-constexpr double kDecreasingTrend = -0.8;  ///< below it the first point of a cloud has the last time
-constexpr double kClockTolerance = 1.0;    ///< s: times further from where they are expected are of another clock
+constexpr double kDecreasingTrend = -0.8;  ///< below it, times decrease in storage order
+constexpr double kClockTolerance = 1.0;    ///< s: times with a larger deviation are of another clock
 
-/// Returns the correlation of values with their order, -1...1; 0 for values that are all the same.
+/// Returns the correlation of values with their index, -1...1; 0 for constant values.
 double findTrend(const std::vector<double>& values);
 
-/// Meaning of a field by its name.
+/// Meaning of a field according to its name.
 enum class FieldMeaning { Time, Other, Unknown };
 FieldMeaning findMeaning(const std::string& name);
-/// Returns whether a field is an intensity, and whether it is a reflectance, by its name.
+/// Return whether a field is an intensity or a reflectance, according to its name.
 bool isIntensity(const std::string& name);
 bool isReflectance(const std::string& name);
 
-/// Returns the unit in which a span is that of a sweep, 10 ms to 1 s. At most one of the four is; nullopt for none.
+/// Returns the unit in which a span is a valid duration of a sweep, 10 ms to 1 s; at most one fits. nullopt for none.
 std::optional<PointTimes::Unit> unitOfSpan(double span);
 
 }  // namespace urban_nav_core

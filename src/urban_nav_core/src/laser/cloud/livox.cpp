@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t kEncapsulation = 4;                       // bytes before a message in CDR
 constexpr std::size_t kPointSize = 19, kPointSizeAligned = 20;  // bytes; the last point in CDR has no padding
 
-/// Reads numbers one after the other. After the first one that is missing, all are 0.
+/// Reads numbers in sequence. After the end of the data, all are 0.
 class Cursor {
  public:
   Cursor(const std::uint8_t* bytes, std::size_t size, LivoxEncoding encoding)
@@ -58,7 +58,7 @@ std::optional<LivoxCloud> parseLivox(const std::uint8_t* bytes, std::size_t size
   const std::uint64_t seconds = cursor.number(4), nanoseconds = cursor.number(4);
   LivoxCloud cloud;
   cloud.frame = cursor.text();
-  cursor.number(8);  // timebase: the begin of the frame on the sensor's clock, which the header states on the host's
+  cursor.number(8);  // timebase: beginning of the frame on the sensor's clock; the header has that of the host
   cursor.number(4);  // point_num
   cursor.skip(4);    // lidar_id, rsvd
   const std::uint64_t count = cursor.number(4);

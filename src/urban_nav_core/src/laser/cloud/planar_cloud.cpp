@@ -11,12 +11,12 @@ namespace urban_nav_core {
 
 namespace {
 
-constexpr std::size_t kFewestInPlane = 20;  // points of a cloud that counts
-constexpr double kFlatness = 1e-3;          // m, and m per m of range: points in single precision
+constexpr std::size_t kFewestInPlane = 20;  // least number of points of a cloud that is counted
+constexpr double kFlatness = 1e-3;          // m, and m per m of range: tolerance of single precision
 constexpr double kLeastStep = 1e-4;         // rad: finer than any planar laser
 constexpr double kMostStep = 0.1;           // rad
-constexpr double kOffGrid = 0.2;            // steps
-constexpr double kFewOffGrid = 0.05;        // share of points: edges that a driver interpolates
+constexpr double kOffGrid = 0.2;            // deviation from a multiple, steps
+constexpr double kFewOffGrid = 0.05;        // share of points, since drivers interpolate at edges
 constexpr double kFarthestInPlane = 1e6;    // m
 constexpr double kShortestTurn = 1e-4;      // s
 constexpr double kLongestTurn = 1.0;        // s
@@ -61,7 +61,7 @@ PlanarPoints readPlanarPoints(const CloudView& cloud, const std::string& time_fi
   return planar;
 }
 
-/// Returns the step of which the differences of sorted angles are multiples; 0 without one.
+/// Returns the step of which the differences of sorted angles are multiples; 0 if there is none.
 double findAngleStep(std::vector<double> angles) {
   std::sort(angles.begin(), angles.end());
   std::vector<double> differences;

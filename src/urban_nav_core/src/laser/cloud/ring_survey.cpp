@@ -14,10 +14,10 @@ constexpr std::size_t kMostRings = 512;
 constexpr double kRightAngle = M_PI / 2;
 constexpr double kBin = 0.05 * M_PI / 180.0;  // rad, of the histogram of elevations
 constexpr std::size_t kBins = 3600;           // from -90 to 90 deg
-constexpr double kSeparated = 0.05;           // variance within rings over that of all points
-constexpr std::size_t kEvenRings = 64;        // if elevations do not separate rings
-constexpr double kFewPoints = 20.0;           // of a ring: its elevation is not known
-constexpr double kGapLevel = 0.02;            // of the highest bin: a gap between rings
+constexpr double kSeparated = 0.05;           // variance within rings relative to that of all points
+constexpr std::size_t kEvenRings = 64;        // number of rings if elevations do not separate them
+constexpr double kFewPoints = 20.0;           // least points of a ring with known elevation
+constexpr double kGapLevel = 0.02;            // relative to the highest bin: a gap between rings
 constexpr double kMostOccupied = 0.5;         // share of bins between the first and the last ring
 
 double elevation(const UsablePoints& points, std::size_t i) {
@@ -100,7 +100,7 @@ double RingSurvey::deviation(const Groups& groups) {
   return count > 0.0 ? std::sqrt(squaresWithin(groups) / count) : 0.0;
 }
 
-/// Returns the variance of elevations within groups over that of all points.
+/// Returns the variance of elevations within groups relative to that of all points.
 double RingSurvey::spread(const Groups& groups) {
   const Moments all = joined(groups);
   const double total = all.count > 0.0 ? all.squares - all.sum * all.mean() : 0.0;
@@ -116,7 +116,7 @@ std::size_t RingSurvey::typicalSize() const {
   return sizes[sizes.size() / 2];
 }
 
-/// Orders numbers by elevation; one without points is taken to lie between its neighbours. Returns whether there are
+/// Orders numbers by elevation; those without points are assumed between their neighbours. Returns whether there are
 /// any.
 bool RingSurvey::concludeGroups(const Groups& groups, CloudConvention::Rings rings, CloudConvention& convention) const {
   std::vector<double> means(groups.size(), NAN);
@@ -158,7 +158,7 @@ bool RingSurvey::concludeGroups(const Groups& groups, CloudConvention::Rings rin
   return true;
 }
 
-/// Divides elevations at the gaps between rings, evenly if there are no gaps.
+/// Divides elevations at the gaps between rings, or evenly if there are no gaps.
 void RingSurvey::concludeElevations(CloudConvention& convention) const {
   const double highest = *std::max_element(histogram_.begin(), histogram_.end());
   std::vector<double> limits;
@@ -176,7 +176,7 @@ void RingSurvey::concludeElevations(CloudConvention& convention) const {
                            static_cast<double>(occupied) < kMostOccupied * static_cast<double>(last - first + 1);
   if (!is_separate) {
     double seen = 0.0, low = NAN, high = 0.0;
-    constexpr double kTail = 0.005;  // share of points that do not count on either side
+    constexpr double kTail = 0.005;  // share of points ignored on either side
     for (std::size_t i = 0; i < kBins; ++i) {
       seen += histogram_[i];
       if (std::isnan(low) && seen > kTail * points) low = kBin * static_cast<double>(i) - kRightAngle;

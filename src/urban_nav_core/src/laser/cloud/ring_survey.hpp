@@ -12,18 +12,18 @@
 
 namespace urban_nav_core {
 
-/// Finds the source of the ring of a point, and the order of the rings by elevation. Not thread-safe.
+/// Determines the source of a point's ring, and the order of rings by elevation. Not thread-safe.
 class RingSurvey {
  public:
   RingSurvey();
 
   /// Adds the usable points of a cloud. `statistics`: of all its fields.
   void add(const CloudPoints& points, const UsablePoints& usable, const std::vector<FieldStatistics>& statistics);
-  /// Sets rings, columns and the sense of rotation of a convention.
+  /// Sets rings, columns and the direction of rotation of a convention.
   void conclude(CloudConvention& convention) const;
 
  private:
-  /// Elevations of the points of one number, rad.
+  /// Moments of the elevations of one ring, row or column, rad.
   struct Moments {
     double count = 0.0, sum = 0.0, squares = 0.0;
     void add(double elevation) { ++count, sum += elevation, squares += elevation * elevation; }
@@ -41,12 +41,12 @@ class RingSurvey {
   void concludeElevations(CloudConvention& convention) const;
   std::size_t typicalSize() const;
 
-  std::string field_;  // of ring numbers; empty: none
+  std::string field_;  // field of ring numbers; empty: none
   Groups by_field_, by_row_, by_column_;
   std::vector<double> histogram_;       // points by elevation
   std::vector<std::size_t> sizes_;      // points of each cloud, valid or not
-  std::size_t rows_ = 0, columns_ = 0;  // of all clouds; 0: they differ
-  double turn_ = 0.0;                   // rad, in the order of storage, counter-clockwise positive
+  std::size_t rows_ = 0, columns_ = 0;  // of all clouds; 0: not constant
+  double turn_ = 0.0;                   // rad, accumulated in storage order, counter-clockwise positive
 };
 
 /// Returns whether a field holds ring numbers, by its name and its values.

@@ -12,14 +12,14 @@ namespace urban_nav_core {
 
 namespace {
 
-constexpr double kLongestSpan = 1.0;  // s: no sweep takes longer
+constexpr double kLongestSpan = 1.0;  // s: longest duration of a sweep
 constexpr double kConstant = 1e-6;    // s
-constexpr double kLatest = 4.6e18;    // ns: half of what a stamp can hold
+constexpr double kLatest = 4.6e18;    // ns: half of the range of stamps
 constexpr double kBrightest = 255.0;  // intensity
 
 /// Times of the usable points of a cloud.
 struct Timing {
-  std::vector<double> offsets;     ///< s from the header; NaN where a value is no time
+  std::vector<double> offsets;     ///< s from the header; NaN for invalid values
   double first = 0.0, last = 0.0;  ///< s from the header
   bool covers(std::size_t point) const { return offsets[point] >= first && offsets[point] <= last; }
 };
@@ -56,7 +56,7 @@ ReadSweep::Times checkTiming(const Timing& timing, bool is_given) {
   return !is_given && findTrend(covered) < kDecreasingTrend ? ReadSweep::Times::Decreasing : ReadSweep::Times::Used;
 }
 
-/// Returns the number of a ring, row or column as the ring that it is.
+/// Returns the ordered ring of a number of ring, row or column.
 std::uint16_t orderedRing(const CloudConvention& convention, double number) {
   if (!(number >= 0.0) || convention.order.empty()) return 0;
   const double most = static_cast<double>(convention.order.size() - 1);

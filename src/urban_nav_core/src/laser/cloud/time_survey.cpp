@@ -10,11 +10,11 @@ namespace urban_nav_core {
 
 namespace {
 
-constexpr double kNear = 1.5;           // s: times within that of 0 are relative to the header
-constexpr double kMostSpread = 0.5;     // s: of the middles of sweeps relative to their headers
+constexpr double kNear = 1.5;           // s: times of at most this magnitude are relative to the header
+constexpr double kMostSpread = 0.5;     // s: of the centres of sweeps relative to their headers
 constexpr double kUsualSweep = 0.1;     // s
-constexpr double kSteadyShare = 0.005;  // share of neighbours against the trend, for unknown names
-constexpr std::size_t kLeastDistinct = 64, kMostRingNumbers = 256;  // values of such a field
+constexpr double kSteadyShare = 0.005;  // share of pairs against the trend, for unknown field names
+constexpr std::size_t kLeastDistinct = 64, kMostRingNumbers = 256;  // distinct values of such a field
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -28,14 +28,14 @@ double computeSpread(const std::vector<double>& values) {
   return values.empty() ? 0.0 : *most - *least;
 }
 
-/// One field over all clouds, read in one unit.
+/// One field over all clouds, interpreted in one unit.
 struct Candidate {
   PointTimes times;
   std::vector<double> spans, middles;  ///< s; middles relative to the header
   double trend = 0.0;
 };
 
-/// Returns the unit in which most of the clouds have the span of a sweep.
+/// Returns the unit in which most of the clouds have a valid duration of a sweep.
 std::optional<PointTimes::Unit> agreedUnit(const std::vector<const FieldStatistics*>& fields) {
   std::array<std::size_t, 4> votes = {};
   for (const FieldStatistics* field : fields)
@@ -58,7 +58,7 @@ std::vector<const FieldStatistics*> collect(const std::vector<CloudStatistics>& 
   return fields;
 }
 
-/// Reads a field as times; the middles are those of values relative to the header, or as stamps.
+/// Interprets a field as times; the centres are relative to the header, or stamps.
 Candidate readAs(const std::vector<CloudStatistics>& clouds, const PointTimes& times) {
   Candidate candidate;
   candidate.times = times;
@@ -76,8 +76,8 @@ Candidate readAs(const std::vector<CloudStatistics>& clouds, const PointTimes& t
   return candidate;
 }
 
-/// Values near 0 in all clouds are relative to the header, unless they follow the stamps of the headers, as those of a
-/// clock that has just started do.
+/// Values near 0 in all clouds are relative to the header, unless they increase with the stamps of the headers like
+/// those of a clock that has just started.
 PointTimes::Reference chooseReference(const Candidate& from_header, const Candidate& absolute) {
   const auto isNear = [](double middle) { return std::abs(middle) <= kNear; };
   if (!std::all_of(from_header.middles.begin(), from_header.middles.end(), isNear))
@@ -99,7 +99,7 @@ std::optional<Candidate> asTimes(const std::vector<CloudStatistics>& clouds, con
   Candidate from_header = readAs(clouds, {name, *unit, PointTimes::Reference::Header}),
             absolute = readAs(clouds, {name, *unit, PointTimes::Reference::Absolute});
   if (chooseReference(from_header, absolute) == PointTimes::Reference::Absolute) return absolute;
-  if (computeSpread(from_header.middles) > kMostSpread) return std::nullopt;  // the part of a stamp below a second
+  if (computeSpread(from_header.middles) > kMostSpread) return std::nullopt;  // subsecond part of a stamp
   return from_header;
 }
 
@@ -138,14 +138,14 @@ void take(const Candidate& candidate, CloudConvention& convention) {
   convention.sweep_s = median(candidate.spans);
   convention.middle = median(candidate.middles);
   if (std::abs(convention.middle) <= kClockTolerance) return;
-  // Clocks that differ in the time zone, the epoch or the time scale (UTC, TAI) differ by whole seconds.
+  // Clocks that differ by time zone, epoch or time scale (UTC, TAI) differ by whole seconds.
   convention.fault = PointTimesFault::Clock;
   convention.suspect = candidate.times.field;
   convention.clock = convention.middle;
   convention.middle -= std::round(convention.middle);
 }
 
-/// Returns whether drivers do not use this unit for numbers of this kind.
+/// Returns whether drivers do not use this unit for numbers of this type.
 bool isUnusual(const CloudStatistics& cloud, const PointTimes& times) {
   const FieldStatistics* field = cloud.find(times.field);
   return field != nullptr && field->number == CloudField::Number::Float32 && times.unit != PointTimes::Unit::Seconds;
@@ -165,7 +165,7 @@ void findPointTimes(const std::vector<CloudStatistics>& clouds, const CloudOptio
   if (options.times) {
     if (!options.times->areKnown()) return;
     const Candidate given = readAs(clouds, *options.times);
-    if (given.spans.empty()) return;  // there is no such field
+    if (given.spans.empty()) return;  // the field does not exist
     take(given, convention);
     const std::optional<PointTimes::Unit> unit = agreedUnit(collect(clouds, options.times->field));
     if (unit == options.times->unit) return;

@@ -17,8 +17,7 @@ struct CloudStatistics {
   const FieldStatistics* find(const std::string& name) const;
 };
 
-/// Sets the times of the points of a convention, what is wrong with them, and the duration of sweeps. `clouds`: at
-/// least one, in order.
+/// Sets point times, their fault and the duration of sweeps in a convention. `clouds`: at least one, in order of time.
 void findPointTimes(const std::vector<CloudStatistics>& clouds, const CloudOptions& options,
                     CloudConvention& convention);
 

@@ -46,7 +46,7 @@ std::string plyAscii() {
          asText(" ");
 }
 
-/// With an element of lists before the points, one after, and other properties between.
+/// Binary PLY with a list element before the points, one after them, and other properties in between.
 std::string plyBinary(bool big) {
   std::string bytes =
       std::string("ply\nformat ") + (big ? "binary_big_endian" : "binary_little_endian") +
@@ -97,7 +97,7 @@ std::string withSizes(const std::string& packed, std::size_t plain) {
   return bytes + packed;
 }
 
-/// Field by field; the rings, all zero, as one byte and a copy of itself.
+/// Structure of arrays; the rings, all zero, as one literal byte and a copy.
 std::string pcdCompressed() {
   std::string coordinates;
   for (int axis = 0; axis < 3; ++axis)
@@ -236,7 +236,7 @@ TEST(CloudFile, LasIsRead) {
   const Eigen::Vector3d first = file.offset + file.cloud.points[0].cast<double>();
   EXPECT_LT((first - Eigen::Vector3d(1.5, 1000.0, 1999.999)).norm(), 1e-6);
   EXPECT_NE(refusal(las({{1, 2, 3}}, 0x83)).find("LAZ"), std::string::npos);
-  EXPECT_EQ(refusal(las({{1, 2, 3}}).substr(0, 250)), "c: ends before its 1 points: allowed a whole file");
+  EXPECT_EQ(refusal(las({{1, 2, 3}}).substr(0, 250)), "c: ends before its 1 points: expected a complete file");
 }
 
 TEST(CloudFile, BeamsWithoutReturnAreKept) {
@@ -250,29 +250,30 @@ TEST(CloudFile, BeamsWithoutReturnAreKept) {
 TEST(CloudFile, AnEmptyFileIsAnEmptyCloud) { EXPECT_TRUE(parseCloud("", "c").cloud.points.empty()); }
 
 TEST(CloudFile, MistakesAreNamedWithTheirLine) {
-  EXPECT_EQ(refusal("1,2,3\n1,2\n"), "c:2: 2 columns: allowed at least 3");
-  EXPECT_EQ(refusal("1,2,3\n1,b,3\n"), "c:2: `b`: allowed a number");
+  EXPECT_EQ(refusal("1,2,3\n1,2\n"), "c:2: 2 columns: expected at least 3");
+  EXPECT_EQ(refusal("1,2,3\n1,b,3\n"), "c:2: `b`: expected a number");
   EXPECT_EQ(refusal("a,b,c\n1,2,3\n"),
-            "c:1: no column x in the header a, b, c: allowed PLY, PCD, or CSV with the columns x, y, z");
+            "c:1: no column x in the header a, b, c: expected PLY, PCD, or CSV with the columns x, y, z");
   EXPECT_EQ(refusal("ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n"),
-            "c:4: property type real: allowed a type of PLY, such as float");
+            "c:4: property type real: expected a type of PLY, such as float");
   EXPECT_EQ(refusal(plyAscii().substr(0, plyAscii().size() - 12)),
-            "c: ends before its 4 of element vertex: allowed a whole file");
-  EXPECT_EQ(refusal(plyAscii() + "1 2\n"), "c:12: more numbers than the header announces: allowed as many");
-  EXPECT_EQ(refusal("5\n1 2 3\n"), "c: ends after 1 points, and announces 5: allowed a whole file");
-  EXPECT_EQ(refusal(plyBinary(false).substr(0, 300)), "c: ends before its 4 of element vertex: allowed a whole file");
+            "c: ends before its 4 of element vertex: expected a complete file");
+  EXPECT_EQ(refusal(plyAscii() + "1 2\n"), "c:12: more numbers than declared in the header: expected as many");
+  EXPECT_EQ(refusal("5\n1 2 3\n"), "c: ends after 1 points, the header declares 5: expected a complete file");
+  EXPECT_EQ(refusal(plyBinary(false).substr(0, 300)),
+            "c: ends before its 4 of element vertex: expected a complete file");
   EXPECT_EQ(refusal(pcdBinary().substr(0, pcdBinary().size() - 1)),
-            "c: ends before its 4 points: allowed a whole file");
+            "c: ends before its 4 points: expected a complete file");
   {
     const testing::LimitedMemory limit(std::size_t{8} << 20U);
     EXPECT_EQ(refusal(gzipped("x,y,z\n" + std::string(std::size_t{1} << 20U, '\n'))),
-              "c: more than 1 MB when unpacked: allowed an eighth of memory_mb = 8; or the unpacked file");
+              "c: more than 1 MB when unpacked: expected an eighth of memory_mb = 8; or the unpacked file");
   }
-  EXPECT_EQ(refusal(gzipped(plyAscii()).substr(0, 60)), "c: the gzip stream ends too early: allowed a whole file");
+  EXPECT_EQ(refusal(gzipped(plyAscii()).substr(0, 60)), "c: the gzip stream ends too early: expected a complete file");
   EXPECT_EQ(refusal("VERSION 0.7\nFIELDS x y\nSIZE 4 4 4\n"),
-            "c:3: 3 words for 2 fields: allowed one for each, after the line FIELDS");
-  EXPECT_EQ(refusal(withSizes("\xff\xff", 64)), "c: the compressed points are damaged: allowed a whole file");
-  EXPECT_EQ(refusal(withSizes("\xff\xff", 4000000000U)), "c: ends before its 4 points: allowed a whole file");
+            "c:3: 3 words for 2 fields: expected one for each, after the line FIELDS");
+  EXPECT_EQ(refusal(withSizes("\xff\xff", 64)), "c: the compressed points are damaged: expected a complete file");
+  EXPECT_EQ(refusal(withSizes("\xff\xff", 4000000000U)), "c: ends before its 4 points: expected a complete file");
 }
 
 TEST(CloudFile, SurvivesDamage) {

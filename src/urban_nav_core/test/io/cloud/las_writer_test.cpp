@@ -46,7 +46,7 @@ std::string writtenLas(const std::vector<Eigen::Vector3d>& points) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// A value at an offset that the specification states.
+/// Returns the value at an offset of the specification.
 template <typename Value>
 Value valueAt(const std::string& bytes, std::size_t offset) {
   Value value;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Clouds as drivers write them: whatever the field of the times, its type, unit and reference, the beams have the times
-// at which they were measured.
+// Clouds in the layouts of drivers: for any field, type, unit and reference of the times, beams must have the times of
+// their measurement.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -23,7 +23,7 @@ struct SamplePoint {
   int column = 0;
 };
 
-/// One turn, column by column, clockwise from the back: 10 m from the axis, rings 2 deg apart.
+/// One revolution, column by column, clockwise from the back: 10 m from the axis, rings 2 deg apart.
 inline std::vector<SamplePoint> sampleTurn(int rings = 16, int columns = 360) {
   std::vector<SamplePoint> points;
   for (int column = 0; column < columns; ++column)
@@ -42,14 +42,15 @@ inline std::vector<SamplePoint> sampleTurn(int rings = 16, int columns = 360) {
   return points;
 }
 
-/// A field of a layout and its value: of a point, given the stamp of the header (ns) and the begin of the sweep (ns).
+/// Field of a layout with its value for a point, given the stamp of the header (ns) and the beginning of the sweep
+/// (ns).
 struct SampleField {
   using Value = std::function<double(const SamplePoint& point, double header, double begin)>;
   CloudField field;
   Value value;
 };
 
-/// A cloud with the bytes that it is a view of.
+/// Cloud that owns the bytes of its view.
 class SampleCloud {
  public:
   /// `header`: of the cloud, ns after the begin of the sweep.
@@ -70,7 +71,7 @@ class SampleCloud {
     }
   }
 
-  /// Returns the view, to be changed at will; its bytes are those of this object.
+  /// Returns the view, which may be modified; its bytes are those of this object.
   CloudView& view() {
     view_.data = bytes_.data();
     view_.size = bytes_.size();

@@ -79,7 +79,7 @@ class DefinitionParser {
     if (depth > kDeepest) throw std::invalid_argument(type + " is nested too deeply");
     const std::size_t place = definition_.layouts.size();
     definition_.layouts.push_back({type, {}, {}});
-    if (!open_.insert({type, true}).second) throw std::invalid_argument(type + " holds itself");
+    if (!open_.insert({type, true}).second) throw std::invalid_argument(type + " contains itself");
     std::istringstream lines(text->second);
     std::string line;
     while (std::getline(lines, line)) parseLine(line, place, depth);
@@ -120,7 +120,7 @@ class DefinitionParser {
     field.count = 0;
     for (const char digit : size) {
       if (std::isdigit(static_cast<unsigned char>(digit)) == 0 || field.count > kLargestArray)
-        throw std::invalid_argument("the size of an array, [" + size + "], is no number");
+        throw std::invalid_argument("the size of an array, [" + size + "], is not a number");
       field.count = 10 * field.count + static_cast<std::size_t>(digit - '0');
     }
   }

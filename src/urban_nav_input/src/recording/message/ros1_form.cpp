@@ -39,7 +39,7 @@ void Ros1Form::transcode(const Connection& connection) {
 ByteView Ros1Form::convert(ByteView message) {
   if (!transcoder_) return message;
   const std::optional<MessageEncoding> encoding = cdrEncoding(message);
-  if (!encoding) throw std::runtime_error("a message is in an encoding that is not understood (XCDR2)");
+  if (!encoding) throw std::runtime_error("a message has an unsupported encoding (XCDR2)");
   return transcoder_->convert(message, *encoding, MessageEncoding::Ros1);
 }
 

@@ -66,7 +66,7 @@ class BagRecordsStorage : public Storage {
       if (std::optional<BagScan> scan = readBagIndex(file_.bytes())) return std::move(*scan);
     BagScan scan = scanBag(path, file_.bytes());
     if (scan.messages == 0)
-      throw urban_nav_core::DataError(path, scan.warnings.empty() ? "holds no whole message" : scan.warnings.front(),
+      throw urban_nav_core::DataError(path, scan.warnings.empty() ? "has no intact message" : scan.warnings.front(),
                                       "a bag with messages");
     return scan;
   }

@@ -77,7 +77,7 @@ class BagWalk {
   void visitChunk(const rosbag1::Record& record, bool is_cut) {
     std::optional<McapChunk> read = readChunk(record);
     if (!read)
-      throw UserError(path_, "is compressed by " + findText(record.header, "compression") + ", which is not understood",
+      throw UserError(path_, "is compressed by " + findText(record.header, "compression") + ", which is not supported",
                       "none, bz2 or lz4");
     McapChunk& chunk = *read;
     if (is_cut) chunk.chunk.packed_size = std::max<std::uint64_t>(record.data_size, record.data.size + 1);

@@ -145,7 +145,7 @@ void checkLengths(const std::string& path) {
     reader.bytes(reader.number<std::uint32_t>());  // data
   }
   if (!reader.isGood())
-    throw urban_nav_core::DataError(path, "is a bag of version 1 that is cut off or damaged", "a whole bag");
+    throw urban_nav_core::DataError(path, "is a bag of version 1 that is truncated or damaged", "an intact bag");
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ class Db3Storage : public Storage {
     SqliteFile::Query rows(file_, "SELECT max(schema_version) FROM schema");
     if (rows.next() && rows.integer(0) > kNewestSchema)
       warnings_.push_back("is of schema " + std::to_string(rows.integer(0)) + ", which is newer than " +
-                          std::to_string(kNewestSchema) + ": read as that");
+                          std::to_string(kNewestSchema) + ": read as the newest known schema");
   }
 
   /// Rows come in the order of the file, which costs no index of SQLite and touches no message.

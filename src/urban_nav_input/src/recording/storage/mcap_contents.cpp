@@ -17,7 +17,7 @@ namespace {
 
 void checkCompression(const std::string& path, const std::string& compression) {
   if (!isKnownCompression(compression))
-    throw urban_nav_core::UserError(path, "is compressed by " + compression + ", which is not understood",
+    throw urban_nav_core::UserError(path, "is compressed by " + compression + ", which is not supported",
                                     "none, lz4 or zstd");
 }
 
@@ -40,7 +40,7 @@ class McapScan {
       if (cut && cut->op == Op::Chunk) visitChunk(*cut, true);
       contents_.warnings.push_back("is cut off at byte " + std::to_string(walk.at()) + " of " +
                                    std::to_string(file_.size) + ": the " + std::to_string(messages_) +
-                                   (messages_ == 1 ? " message that is whole is used" : " whole messages are used"));
+                                   (messages_ == 1 ? " intact message is used" : " intact messages are used"));
     } else if (!endsWithMagic()) {
       contents_.warnings.push_back("is cut off after its messages: all " + std::to_string(messages_) + " are used");
     }

@@ -49,7 +49,7 @@ std::optional<StorageKind> recogniseStorageFolder(const std::string& path) {
 [[noreturn]] void throwNotARecording(const std::string& path) {
   constexpr const char* kAllowed = "a ROS 1 bag, MCAP, a .db3 or a folder of rosbag2";
   std::error_code error;
-  if (!fs::exists(path, error)) throw UserError(path, "is not there", kAllowed);
+  if (!fs::exists(path, error)) throw UserError(path, "does not exist", kAllowed);
   if (fs::is_directory(path, error)) throw UserError(path, "is a folder without a recording of rosbag2", kAllowed);
   if (!fs::is_regular_file(path, error)) throw UserError(path, "is neither a file nor a folder", kAllowed);
   if (fs::path(path).extension() == ".zstd") throw UserError(path, "is not a recording that zstd compressed", kAllowed);

@@ -26,7 +26,7 @@ class Rosbag2Folder : public Storage {
     if (fs::exists(about)) {
       metadata = readRosbag2Metadata(about.string());
       if (!metadata.compression.empty() && metadata.compression != "zstd")
-        throw UserError(about.string(), "names the compression " + metadata.compression + ", which is not understood",
+        throw UserError(about.string(), "names the compression " + metadata.compression + ", which is not supported",
                         "zstd");
       openNamed(folder, metadata);
     } else {
@@ -92,8 +92,8 @@ class Rosbag2Folder : public Storage {
     }
     const std::string about = (folder / "metadata.yaml").string();
     if (metadata.files.empty()) throw UserError(about, "names no files (relative_file_paths)", "");
-    if (files_.empty()) throw DataError(about, "names files that are not there: " + missing, "");
-    if (!missing.empty()) warnings_.push_back("metadata.yaml names files that are not there: " + missing);
+    if (files_.empty()) throw DataError(about, "names missing files: " + missing, "");
+    if (!missing.empty()) warnings_.push_back("metadata.yaml names missing files: " + missing);
   }
 
   void openOnly(const fs::path& folder) {

@@ -24,7 +24,7 @@ using urban_nav_core::StampNs;
 constexpr StampNs kStart = 1'225'719'873'000'000'000, kEpoch = 1'000'000'000'000;
 constexpr int kLap = 24;  // frames around the room
 
-/// Around a textured room, with a frame each 0.8 s and 0.6 m.
+/// Drive around a textured room, with a frame each 0.8 s and 0.6 m.
 inline urban_nav_core::testing::RenderedSequence room() {
   using namespace urban_nav_core::testing;
   SequenceOptions options;
@@ -32,7 +32,7 @@ inline urban_nav_core::testing::RenderedSequence room() {
   options.first_stamp = kStart;
   return RenderedSequence(texturedRoom(), loop(3.0, 1.5, 1.2, kLap / options.rate), options);
 }
-/// The same on another day: a little beside, in dimmer light.
+/// The drive of room() on another day: slightly offset, in dimmer light.
 inline urban_nav_core::testing::RenderedSequence roomOfAnotherDay() {
   using namespace urban_nav_core::testing;
   SequenceOptions options;
@@ -42,7 +42,7 @@ inline urban_nav_core::testing::RenderedSequence roomOfAnotherDay() {
   options.gain = [](double) { return 0.8; };
   return RenderedSequence(texturedRoom(), loop(2.9, 1.4, 1.15, kLap / options.rate), options);
 }
-/// Somewhere else.
+/// Another site.
 inline urban_nav_core::testing::RenderedSequence street() {
   using namespace urban_nav_core::testing;
   SequenceOptions options;
@@ -53,7 +53,7 @@ inline urban_nav_core::testing::RenderedSequence street() {
 
 inline Pose T_base_left() { return Pose(urban_nav_ros::opticalInBody().q(), Eigen::Vector3d(0.1, 0.06, 1.1)); }
 
-/// The ROS graph as a nodelet sees it: a robot with a stereo camera and odometry.
+/// ROS environment of a nodelet: a robot with a stereo camera and odometry.
 class DrivingRobot : public StereoListener {
  public:
   DrivingRobot(const std::string& node, urban_nav_core::testing::RenderedSequence sequence)
@@ -63,15 +63,15 @@ class DrivingRobot : public StereoListener {
   }
   bool connected() const { return connected_; }
 
-  /// Each is later than the one before.
+  /// Begins another session, later than all before.
   void beginSession() { ++session_; }
   StampNs toStamp(int frame) const { return sequence_.stamp(frame) + session_ * kEpoch; }
   Pose T_world_base(int frame) const { return sequence_.T_world_camera(frame) * T_base_left().inverse(); }
   urban_nav_core::StereoCamera camera() const { return makeCamera(sequence_.options().camera); }
   const urban_nav_core::testing::StereoFrame& frame(int i) { return sequence_.frame(i); }
 
-  /// Frames from ... to - 1 and the odometry between them; without the step that leads to frame `lost`. Returns once
-  /// the nodelet has received all.
+  /// Publishes frames from ... to - 1 and the odometry between them, except the step that leads to frame `lost`.
+  /// Returns once the nodelet has received all.
   void drive(int from, int to, bool images = true, int lost = -1) {
     for (int i = from; i < to; ++i) {
       const bool steps = i > 0 && i != lost;
@@ -101,7 +101,7 @@ class DrivingRobot : public StereoListener {
     relative_.publish(urban_nav_ros::toRelativePoseMessage(step, "base_link"));
   }
   void show(int i) { StereoListener::show(sequence_.frame(i), camera(), toStamp(i)); }
-  /// The last value of an entry of the diagnostics.
+  /// Returns the last value of an entry of the diagnostics.
   std::string diagnosis(const std::string& key) const {
     std::string value;
     for (const auto& array : diagnostics)

@@ -12,14 +12,13 @@
 
 namespace urban_nav_ros::testing {
 
-/// What listens in the rostest of a nodelet: it keeps all that comes on the topics it is given, in the thread of the
-/// test.
+/// Subscriber in the rostest of a nodelet: keeps all messages on the given topics, in the thread of the test.
 class Listener {
  public:
   /// `node`: the nodelet's name, under which its services are.
   explicit Listener(std::string node) : node_(std::move(node)) { keep("/diagnostics", diagnostics); }
 
-  /// Spins until it is so; false after five minutes, which is ample on a machine that has other work.
+  /// Spins until the condition holds; false after five minutes, which is sufficient on a busy machine.
   static bool until(const std::function<bool()>& so) {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(300.0);
     while (ros::ok() && ros::WallTime::now() < end) {
@@ -30,7 +29,7 @@ class Listener {
     return false;
   }
 
-  /// Each topic that is stored has a publisher, and each of the test's own a subscriber.
+  /// Returns whether each stored topic has a publisher, and each of the test's own topics a subscriber.
   bool isConnected() const {
     return std::all_of(subscribers_.begin(), subscribers_.end(),
                        [](const ros::Subscriber& each) { return each.getNumPublishers() > 0; }) &&
@@ -38,13 +37,13 @@ class Listener {
                        [](const ros::Publisher& each) { return each.getNumSubscribers() > 0; });
   }
 
-  /// A service without arguments, which says whether it did what it was asked.
+  /// Calls a service without arguments; returns its `success`.
   bool call(const std::string& service) {
     std_srvs::Trigger trigger;
     return ros::service::call(node_ + "/" + service, trigger) && trigger.response.success;
   }
 
-  /// Whether some status has had this entry.
+  /// Returns whether any status had this entry.
   bool diagnosed(const std::string& key, const std::string& value) const {
     for (const auto& array : diagnostics)
       for (const auto& status : array.status)

@@ -19,19 +19,19 @@
 
 namespace urban_nav_ros::testing {
 
-/// Messages that a node has received or sent, by the statistics of its slave API. Each topic has a connection of its
-/// own, and messages on different connections may overtake each other by as much as the machine is slow. What has been
-/// received is handled before all that is published later, whatever its topic.
+/// Counts the messages that a node has received or sent, from the statistics of its slave API. Each topic has its own
+/// connection, and messages on different connections may overtake each other by any time on a slow machine. A message
+/// that has been received is handled before all messages published later, on any topic.
 class Receipts {
  public:
-  /// Messages to wait for, by topic.
+  /// Numbers of messages to wait for, by topic.
   using Messages = std::map<std::string, int>;
 
   explicit Receipts(const std::string& node) : node_(ros::names::resolve(node)) {}
 
-  /// Calls `publish`, and waits until the node has received that many messages more on each topic. Topics to which it
-  /// is not connected are left out. Returns false after Listener::until()'s time. Requires that no earlier message on
-  /// these topics is in flight.
+  /// Calls `publish`, and waits until the node has received that many further messages on each topic. Topics to which
+  /// it is not connected are ignored. Returns false after the timeout of Listener::until(). Requires that no earlier
+  /// message on these topics is in flight.
   bool await(const Messages& messages, const std::function<void()>& publish) const {
     const Topics before = receivedBy(node_);
     publish();
@@ -45,9 +45,9 @@ class Receipts {
     });
   }
 
-  /// Waits until all that the node has published so far on these topics has come to this process, and calls the
-  /// callbacks. Returns false after Listener::until()'s time. Requires that queues of the publishers are long enough:
-  /// roscpp counts a message as sent that it then drops.
+  /// Waits until all messages that the node has published so far on these topics have reached this process, and calls
+  /// the callbacks. Returns false after the timeout of Listener::until(). Requires sufficient publisher queues: roscpp
+  /// counts messages as sent that it then drops.
   bool drain(const std::vector<std::string>& topics) const {
     const auto sent = sentToThis();
     return Listener::until([&] {
@@ -61,7 +61,7 @@ class Receipts {
   }
 
  private:
-  using Connections = std::map<int, int>;  // messages by connection, which begins again when a publisher does
+  using Connections = std::map<int, int>;  // messages by connection; counters restart with the publisher
   using Topics = std::map<std::string, Connections>;
 
   static int countNew(const Connections& before, const Topics& now, const std::string& topic) {

@@ -22,9 +22,9 @@ constexpr int kFrames = static_cast<int>((4.0 * kHalfWay + kTurn) / (kSpeed * kP
 constexpr int kDriftFrame = static_cast<int>((2.0 * kHalfWay + 0.5 * kTurn) / (kSpeed * kPeriod));  // in the turn
 constexpr double kDriftSigma = 0.1;                                                                 // m, rad
 
-/// A robot of the class Robot, but without a camera, in a courtyard: along it, half a turn, and back two metres beside.
-/// Its lasers look ahead to the left and back to the right, so that both ways see the same fronts across. Odometry errs
-/// in one step of the turn, and says by how much.
+/// Robot of the class Robot without a camera, in a courtyard: it drives along it, turns around and returns two metres
+/// beside. Its lasers face ahead to the left and back to the right, so that both passes scan the same fronts. Odometry
+/// has an error in one step of the turn, with a matching covariance.
 template <typename Robot>
 class ScanningRobot : public Robot {
  public:
@@ -47,7 +47,7 @@ class ScanningRobot : public Robot {
     if (way < straight + kTurn) return at(kHalfWay + kAside * std::sin(angle), -kAside * std::cos(angle), angle);
     return at(kHalfWay - (way - straight - kTurn), kAside, angle);
   }
-  /// The moment at `x` on the way there, and on the way back.
+  /// Return the frame at `x` on the outward and on the return path.
   static int there(double x) { return static_cast<int>(std::lround((kHalfWay + x) / (kSpeed * kPeriod))); }
   static int back(double x) { return static_cast<int>(std::lround((3.0 * kHalfWay + kTurn - x) / (kSpeed * kPeriod))); }
 
@@ -60,7 +60,7 @@ class ScanningRobot : public Robot {
     const Pose T = T_world_base(frame - 1).inverse() * T_world_base(frame);
     return frame == kDriftFrame ? T * drift() : T;
   }
-  /// Frames from ... to - 1, and the steps between them.
+  /// Publishes frames from ... to - 1, and the steps between them.
   void drive(int from, int to) {
     for (int i = from; i < to; ++i) {
       if (i > first_) T_odom_base_ = T_odom_base_ * stepTo(i);
@@ -75,7 +75,7 @@ class ScanningRobot : public Robot {
         (frame == "laser_left" ? left_ : right_).publish(scanAt(i, frame, T_base_laser));
   }
 
-  /// x to where it looks, y up: the plane of the beams is upright.
+  /// x in the viewing direction, y up: the scan plane is upright.
   static std::vector<std::pair<std::string, Pose>> lasers() {
     std::vector<std::pair<std::string, Pose>> made;
     for (const auto& [frame, heading] :

@@ -20,14 +20,14 @@
 
 namespace urban_nav_ros::testing {
 
-/// A listener that is the robot's stereo camera too: its four topics, and its place on /tf_static. It goes on once the
-/// node has received what was published: images of one side do not overtake those of the other.
+/// Listener that also simulates the robot's stereo camera: its four topics, and its mounting on /tf_static. Waits until
+/// the node has received each message: images of one side do not overtake those of the other.
 class StereoListener : public Listener {
  public:
   /// `node`: the nodelet's name, under which its services are.
   explicit StereoListener(const std::string& node) : Listener(node), receipts_(node) {}
 
-  /// Publishes the place of the left optical frame in kBaseLink.
+  /// Publishes the pose of the left optical frame in kBaseLink.
   void place(const urban_nav_core::Pose& T_base_left) {
     tf2_msgs::TFMessage message;
     message.transforms.push_back(
@@ -35,7 +35,7 @@ class StereoListener : public Listener {
     EXPECT_TRUE(receipts_.await({{"/tf_static", 1}}, [&] { tf_static_.publish(message); })) << "/tf_static";
   }
 
-  /// Publishes the pair, or one side of it, with its camera_info. `stamp`: instead of the frame's own.
+  /// Publishes a pair, or one side of it, with its camera_info. `stamp`: replaces that of the frame.
   void show(const urban_nav_core::testing::StereoFrame& frame, const urban_nav_core::StereoCamera& camera,
             urban_nav_core::StampNs stamp, bool left = true, bool right = true) {
     Receipts::Messages messages;
@@ -49,7 +49,7 @@ class StereoListener : public Listener {
         << stamp;
   }
 
-  /// Counts the messages that the nodelet has received.
+  /// Returns the counter of messages that the nodelet has received.
   const Receipts& receipts() const { return receipts_; }
 
  private:

@@ -6,9 +6,9 @@
 
 namespace urban_nav_store {
 
-/// The number by which a person calls an edge that closes a loop, for the life of the store.
+/// Number by which users refer to an edge that closes a loop, permanent in the store.
 struct EdgeNumber {
-  Edge edge;  ///< its key
+  Edge edge;  ///< only its key
   std::int64_t number = 0;
   static Table table() {
     Table table{"edge_number", 6};

@@ -8,15 +8,15 @@
 
 namespace urban_nav_store {
 
-/// The ground as dense stereo saw it at a keyframe: the plane up . p + height = 0 in base_link.
+/// Ground plane measured by dense stereo at a keyframe: up . p + height = 0 in base_link.
 struct GroundView {
   SessionId session;
   urban_nav_core::StampNs stamp = 0;
-  std::string verdict;                            ///< "found", or why there is no plane
+  std::string verdict;                            ///< "found", or the reason why there is no plane
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit normal in base_link, away from the ground
   double height = 0.0;                            ///< m, of the origin of base_link above the plane
   double sigma = 0.0;                             ///< rad, standard deviation of the normal's direction
-  double support = 0.0;                           ///< share of the ground's area that lies on the plane
+  double support = 0.0;                           ///< share of the ground's area on the plane
 
   static Table table() {
     Table table{"ground_view", 2};

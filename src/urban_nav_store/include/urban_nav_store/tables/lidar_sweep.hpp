@@ -10,19 +10,19 @@
 
 namespace urban_nav_store {
 
-/// A sweep of a 3D LiDAR, from which a map can be rebuilt without the recording.
+/// Sweep of a 3D LiDAR, from which a map can be rebuilt without the recording.
 struct LidarSweep {
   SessionId session;
-  std::string role;                       ///< of its sensor: "points0"
-  urban_nav_core::StampNs reference = 0;  ///< time that poses of the sweep refer to
-  std::string packed;                     ///< of pack()
+  std::string role;                       ///< role of its sensor: "points0"
+  urban_nav_core::StampNs reference = 0;  ///< time to which poses of the sweep refer
+  std::string packed;                     ///< result of pack()
 
   /// Encodes the beams of a sweep, compressed, ring by ring: directions to 0.1 mrad in azimuth and 0.05 mrad in
-  /// elevation, ranges to 2 mm, intensities to 1, times to 20 us. Beams beyond 131 m, with times further than 0.65 s
-  /// from the reference or with numbers that are not finite are left out.
+  /// elevation, ranges to 2 mm, intensities to 1, times to 20 us. Beams beyond 131 m, with times more than 0.65 s from
+  /// the reference or with numbers that are not finite are omitted.
   static std::string pack(const urban_nav_core::Sweep& sweep);
-  /// Returns a scan for each ring, from the lowest to the highest: its beams in the order of the sweep, with their ring
-  /// and without columns. Throws DataError if the bytes are not those of pack().
+  /// Returns a scan for each ring, lowest first: its beams in the order of the sweep, with their ring and without
+  /// columns. Throws DataError if the bytes are not those of pack().
   std::vector<urban_nav_core::Scan> rings() const;
 
   static Table table() {

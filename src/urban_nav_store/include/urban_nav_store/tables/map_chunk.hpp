@@ -7,15 +7,15 @@
 
 namespace urban_nav_store {
 
-/// The laser scans of some seconds of a session, rendered into the map. Its points are rows of MapChunkCells.
+/// Laser scans of some seconds of a session, rendered into the map. Its points are rows of MapChunkCells.
 struct MapChunk {
   SessionId session;
-  urban_nav_core::StampNs begin = 0;  ///< of the time that the chunk covers
-  urban_nav_core::StampNs end = 0;    ///< beginning of the next one
-  std::string settings;               ///< parameters and extrinsics that it was rendered with, as a digest
-  std::int64_t revision = 0;          ///< of the poses: counts how often the chunk was rendered
+  urban_nav_core::StampNs begin = 0;  ///< beginning of the interval that the chunk covers
+  urban_nav_core::StampNs end = 0;    ///< beginning of the next chunk
+  std::string settings;               ///< digest of the parameters and extrinsics used for rendering
+  std::int64_t revision = 0;          ///< of the poses: number of times that the chunk was rendered
   std::string poses;                  ///< along the chunk, in the encoding of laser_mapper
-  std::string tiles;                  ///< that it has points in, "x,y" between blanks
+  std::string tiles;                  ///< tiles with points of the chunk, "x,y" separated by blanks
   std::int64_t beams = 0, mixed = 0, without_pose = 0, out_of_range = 0, cells = 0;
   static Table table() {
     Table table{"chunk", 2};

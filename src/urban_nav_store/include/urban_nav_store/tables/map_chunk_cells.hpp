@@ -7,10 +7,10 @@
 
 namespace urban_nav_store {
 
-/// Points of one chunk of the map (MapChunk) in one tile of it.
+/// Points of one chunk of the map (MapChunk) in one tile.
 struct MapChunkCells {
   SessionId session;
-  std::string tile;                   ///< "x,y", whole numbers
+  std::string tile;                   ///< "x,y", integers
   urban_nav_core::StampNs begin = 0;  ///< of the chunk
   std::int64_t cells = 0;
   std::string data;  ///< compressed, in the encoding of laser_mapper

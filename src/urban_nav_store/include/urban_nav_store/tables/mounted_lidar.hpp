@@ -9,11 +9,11 @@
 
 namespace urban_nav_store {
 
-/// A 3D LiDAR of a session whose sweeps are stored (lidar_sweep.hpp).
+/// 3D LiDAR of a session whose sweeps are stored (lidar_sweep.hpp).
 struct MountedLidar {
   SessionId session;
   std::string role;   ///< "points0"
-  std::string frame;  ///< of its points
+  std::string frame;  ///< frame of its points
   urban_nav_core::Pose T_base_lidar;
 
   static Table table() {

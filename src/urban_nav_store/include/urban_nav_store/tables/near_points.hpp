@@ -15,21 +15,21 @@ struct NearPoints {
   struct Point {
     Eigen::Vector3f p_base = Eigen::Vector3f::Zero();  ///< m
     float sigma = 0.0F;                                ///< m, standard deviation along the line of sight
-    std::uint8_t grey = 0;                             ///< level of the left image
+    std::uint8_t grey = 0;                             ///< grey level of the left image
   };
 
   SessionId session;
   urban_nav_core::StampNs stamp = 0;
   Eigen::Vector3d camera = Eigen::Vector3d::Zero();  ///< m, centre of the left camera in base_link
-  double pixel_angle = 0.0;                          ///< rad, that a pixel of the left image spans
-  std::string packed;                                ///< of pack()
+  double pixel_angle = 0.0;                          ///< rad, angle of a pixel of the left image
+  std::string packed;                                ///< result of pack()
 
-  /// Encodes points in nine bytes each: a quarter of a millimetre in position, a tenth in sigma. Points beyond 8.19 m
-  /// of base_link in an axis, or not finite, are left out; sigma is at most 6.55 m.
+  /// Encodes points in nine bytes each, with a resolution of 0.25 mm in position and 0.1 mm in sigma. Points more than
+  /// 8.19 m from base_link in an axis, or not finite, are omitted; sigma is at most 6.55 m.
   static std::string pack(const std::vector<Point>& points);
   /// Returns the points. Throws DataError if the bytes are not those of pack().
   std::vector<Point> points() const;
-  /// Returns the covariance of a point in base_link, m^2: sigma along the line of sight, and a third of a pixel across.
+  /// Returns the covariance of a point in base_link, m^2: sigma along the line of sight, a third of a pixel across.
   Eigen::Matrix3d covariance(const Point& point) const;
 
   static Table table() {

@@ -6,20 +6,20 @@
 
 namespace urban_nav_store {
 
-/// A change that a person made to the measurements of the graph: a row of the journal.
+/// Change that a user made to the measurements of the graph: a row of the journal.
 struct StoredEdit {
-  SessionId session;        ///< that it concerns: of the closure's later pose
-  std::int64_t number = 0;  ///< from 1, in the order in which the edits were made
+  SessionId session;        ///< session of the closure's later pose
+  std::int64_t number = 0;  ///< from 1, in order of creation
   std::string action;       ///< "reject", "accept", "remove", "measure", "assert", "pin", "cut", "origin"
-  std::string arguments;    ///< as they follow the action, quoted for a shell; of a closure's number: empty
-  /// reject, accept, remove: the key of the closure; measure, assert: the closure with its measurement; else both poses
-  /// are the one that is meant (cut: the last one before the cut).
+  std::string arguments;    ///< arguments of the action, quoted for a shell; empty for a closure's number
+  /// reject, accept, remove: key of the closure; measure, assert: closure with its measurement; otherwise both poses
+  /// are the pose concerned (cut: the last one before the cut).
   Edge edge;
   Eigen::Vector3d p_base = Eigen::Vector3d::Zero(), p_map = Eigen::Vector3d::Zero();  ///< pin: the point, m
   double sigma = 0.0;                                                                 ///< pin: of p_map, each axis, m
-  std::string evidence;                                                               ///< measure: of its closure
+  std::string evidence;                                                               ///< measure: of the closure
   bool undone = false;
-  bool dropped = false;  ///< undone, and another edit followed: it cannot be redone
+  bool dropped = false;  ///< undone and followed by another edit: cannot be redone
   static Table table() {
     Table table{"edit", 2};
     table.since = 9;

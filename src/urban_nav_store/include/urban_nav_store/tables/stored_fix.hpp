@@ -7,14 +7,14 @@
 
 namespace urban_nav_store {
 
-/// A position that a GPS receiver measured, in WGS 84.
+/// Position measured by a GPS receiver, in WGS 84.
 struct StoredFix {
   SessionId session;
   urban_nav_core::StampNs stamp = 0;
   double latitude = 0.0, longitude = 0.0;                      ///< deg
-  double height = 0.0;                                         ///< m over the ellipsoid
-  double sigma_east = 0.0, sigma_north = 0.0, sigma_up = 0.0;  ///< m, as the receiver states them
-  double x = 0.0, y = 0.0, z = 0.0;                            ///< m, of the antenna in base_link
+  double height = 0.0;                                         ///< m above the ellipsoid
+  double sigma_east = 0.0, sigma_north = 0.0, sigma_up = 0.0;  ///< m, as stated by the receiver
+  double x = 0.0, y = 0.0, z = 0.0;                            ///< m, antenna in base_link
   static Table table() {
     Table table{"fix", 2};
     table.since = 4;

@@ -6,9 +6,9 @@
 
 namespace urban_nav_store {
 
-/// The relaxed pose graph of several sessions as a file for other programs.
+/// Relaxed pose graph of several sessions as a file for other programs.
 struct StoredGraph {
-  SessionId session;  ///< the first of the graph
+  SessionId session;  ///< first session of the graph
   std::string file;   ///< graph.g2o, compressed
   static Table table() {
     Table table{"graph_file"};

@@ -5,8 +5,8 @@
 
 namespace urban_nav_store {
 
-/// What place recognition needs of the left image of a keyframe, in sessions whose places are panoramas: localization
-/// finds keyframes by it. Without a thumbnail, since the keyframe has the image.
+/// Data of place recognition for the left image of a keyframe, in sessions whose places are panoramas; used by
+/// localization to find keyframes. Without a thumbnail, since the keyframe has the image.
 struct StoredKeyframePlace : StoredPlace {
   static Table table() {
     Table table = StoredPlace::table();

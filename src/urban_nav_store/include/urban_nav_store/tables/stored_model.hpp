@@ -6,12 +6,12 @@
 
 namespace urban_nav_store {
 
-/// Trained model with which results of a session were made, by a hash of its content.
+/// Trained model with which results of a session were computed, keyed by a hash of its content.
 struct StoredModel {
   SessionId session;
   std::string hash;
-  std::string stage;  ///< that used it: "fabmap_node"
-  std::string bytes;  ///< as the stage's files have it
+  std::string stage;  ///< stage that used it: "fabmap_node"
+  std::string bytes;  ///< in the file format of the stage
 
   static Table table() {
     Table table{"model", 2};

@@ -10,7 +10,7 @@
 
 namespace urban_nav_store {
 
-/// An image of one camera of a panoramic head.
+/// Image of one camera of a panoramic head.
 struct StoredPanorama {
   SessionId session;
   std::int64_t camera = 0;            ///< number of the camera

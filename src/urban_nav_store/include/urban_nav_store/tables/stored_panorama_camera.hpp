@@ -13,12 +13,12 @@ namespace urban_nav_store {
 /// Calibration of a camera of a panoramic head.
 struct StoredPanoramaCamera {
   SessionId session;
-  std::int64_t camera = 0;  ///< its number
+  std::int64_t camera = 0;  ///< number of the camera
   std::string frame;
   urban_nav_core::Pose T_base_camera;             ///< of the optical frame
   std::int64_t width = 0, height = 0;             ///< px
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< px
-  std::array<double, 8> distortion{};             ///< as urban_nav_core::Distortion takes them
+  std::array<double, 8> distortion{};             ///< coefficients of urban_nav_core::Distortion
   static Table table() {
     Table table{"camera", 2};
     table.since = 3;

@@ -6,16 +6,16 @@
 
 namespace urban_nav_store {
 
-/// Observation of a place: what place recognition needs of a panorama, or of an image of a single camera.
+/// Observation of a place: data of place recognition for a panorama, or for an image of a single camera.
 struct StoredPlace {
   SessionId session;
   urban_nav_core::StampNs stamp = 0;
-  std::int64_t cameras = 1;  ///< in one revolution: 1 for a single camera
+  std::int64_t cameras = 1;  ///< cameras of the head: 1 for a single camera
   std::int64_t missing = 0;  ///< cameras without an image
-  std::string status;        ///< "used", or why it cannot be recognised
-  std::string model;         ///< hash of the model whose words these are
-  std::string words;         ///< in the encoding of the stage, as the descriptors
-  std::string descriptors;   ///< some of its features, at most 20 kB
+  std::string status;        ///< "used", or why it is unsuitable for recognition
+  std::string model;         ///< hash of the model with these words
+  std::string words;         ///< in the encoding of the stage, as are the descriptors
+  std::string descriptors;   ///< of some of its features, at most 20 kB
   std::string thumbnail;     ///< JPEG; may be empty
 
   static Table table() {

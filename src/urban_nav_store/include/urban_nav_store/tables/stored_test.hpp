@@ -10,7 +10,7 @@
 
 namespace urban_nav_store {
 
-/// A consistency test of a session (urban_nav_trust::ConsistencyTest).
+/// Consistency test of a session (urban_nav_trust::ConsistencyTest).
 struct StoredTest {
   SessionId session;
   std::string name;

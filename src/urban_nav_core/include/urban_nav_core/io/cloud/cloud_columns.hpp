@@ -8,16 +8,16 @@
 
 namespace urban_nav_core {
 
-/// Columns of numbers, all of one length; empty for a column that the file lacks.
+/// Columns of numbers of equal length; empty for a column that the file lacks.
 using NumberColumns = std::vector<std::optional<std::vector<double>>>;
 
 /// Returns the columns `wanted` of a file with one point per row: PLY (properties of the element vertex) or CSV with a
-/// header and commas, also gzip of each. Other columns are not read; "nan" and infinities are kept. Throws UserError
-/// with file and, where there are lines, line for a word that is no number, a row of another length, and a file that
-/// ends early.
+/// header and commas, each optionally compressed by gzip. Other columns are not read; "nan" and infinities are kept.
+/// Throws UserError with file, and line in text files, for non-numeric words, rows of another length, and truncated
+/// files.
 NumberColumns readCloudColumns(const std::string& path, const std::vector<std::string>& wanted);
 
-/// Returns the same of a file's content; `name` replaces the path in errors.
+/// Parses the content of such a file; `name` replaces the path in errors.
 NumberColumns parseCloudColumns(std::string_view content, const std::string& name,
                                 const std::vector<std::string>& wanted);
 

@@ -13,18 +13,18 @@
 
 namespace urban_nav_core {
 
-/// A point of a LAS file.
+/// Point of a LAS file.
 struct LasPoint {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();  ///< m
   std::uint16_t intensity = 0;
   std::uint8_t classification = 1;  ///< ASPRS standard classes: 1 unclassified
-  std::uint8_t channel = 0;         ///< of the scanner, 0...3
+  std::uint8_t channel = 0;         ///< scanner channel, 0...3
   std::uint16_t source = 1;         ///< point source ID
   StampNs stamp = 0;                ///< UTC since the Unix epoch
   std::uint16_t red = 0, green = 0, blue = 0;
 };
 
-/// An attribute of the points that the format does not know ("extra bytes").
+/// Attribute of the points beyond those of the format ("extra bytes").
 struct LasAttribute {
   enum class Type : std::uint8_t { UChar = 1, UShort = 3, Float = 9 };
   std::string name;  ///< at most 31 characters
@@ -32,23 +32,23 @@ struct LasAttribute {
   std::string description;  ///< at most 31 characters
 };
 
-/// Returns seconds of GPS time since 1980-01-06: leap seconds up to 2017 are counted.
+/// Returns GPS time in seconds since 1980-01-06; leap seconds up to 2017 are included.
 double gpsSeconds(StampNs utc);
 
-/// Writes a LAS 1.4 file of point format 7 (ASPRS, LAS Specification 1.4 R15) whose number of points is known at its
-/// end only: adjusted standard GPS times, 16-bit colours, attributes as extra bytes, the coordinate system as WKT.
+/// Writes a LAS 1.4 file of point format 7 (ASPRS, LAS Specification 1.4 R15) whose number of points need not be known
+/// in advance: adjusted standard GPS times, 16-bit colours, attributes as extra bytes, the coordinate system as WKT.
 /// Every point is a single return. Coordinates are rounded to 0.1 mm, relative to whole kilometres near the first
-/// point. The date of the file is that of its last point. The file appears whole or not at all. Not thread-safe. Throws
-/// UserError or DataError naming the path, DataError for points that are not finite or over 200 km away from the first
-/// one.
+/// point. The file's date is that of its last point. The file is written completely or not at all. Not thread-safe.
+/// Throws UserError or DataError naming the path, DataError for points that are not finite or more than 200 km from the
+/// first one.
 class LasWriter {
  public:
   LasWriter(const std::string& path, std::vector<LasAttribute> attributes, std::string wkt);
 
-  /// `attributes`: their values in little-endian order without gaps.
+  /// `attributes`: values in little-endian order without padding.
   void append(const LasPoint& point, std::string_view attributes);
   std::size_t points() const { return file_.records(); }
-  /// Writes the header and gives the file its name.
+  /// Writes the header and renames the file to its final name.
   void commit();
 
  private:
@@ -58,9 +58,9 @@ class LasWriter {
   std::vector<LasAttribute> attributes_;
   std::string wkt_;
   RecordFile file_;
-  std::string record_;  ///< of the point being appended
+  std::string record_;  ///< the point being appended
   Eigen::Vector3d offset_ = Eigen::Vector3d::Zero();
-  std::array<std::int32_t, 3> low_{}, high_{};  ///< of the stored coordinates
+  std::array<std::int32_t, 3> low_{}, high_{};  ///< bounds of the stored coordinates
   StampNs last_ = 0;
 };
 

@@ -10,10 +10,10 @@
 
 namespace urban_nav_core {
 
-/// A field of the points of a PCD file.
+/// Field of the points of a PCD file.
 struct PcdField {
   std::string name;
-  int bytes = 4;    ///< of its one value
+  int bytes = 4;    ///< size of its single value
   char type = 'F';  ///< 'F' floating point, 'U' unsigned, 'I' signed
 };
 
@@ -21,8 +21,8 @@ struct PcdField {
 /// number of points.
 std::string pcdHeader(const std::vector<PcdField>& fields, std::size_t points);
 
-/// Writes a binary PCD file (Rusu and Cousins 2011) whose number of points is known at its end only. The bytes of a
-/// point are those of its fields in little-endian order without gaps. The file appears whole or not at all. Not
+/// Writes a binary PCD file (Rusu and Cousins 2011) whose number of points need not be known in advance. A point is the
+/// values of its fields in little-endian order without padding. The file is written completely or not at all. Not
 /// thread-safe. Throws UserError or DataError naming the path.
 class PcdWriter {
  public:
@@ -31,7 +31,7 @@ class PcdWriter {
   /// Appends points. Requires a whole number of them.
   void append(std::string_view points) { file_.append(points); }
   std::size_t points() const { return file_.records(); }
-  /// Writes the header and gives the file its name.
+  /// Writes the header and renames the file to its final name.
   void commit() { file_.commit(pcdHeader(fields_, points())); }
 
  private:

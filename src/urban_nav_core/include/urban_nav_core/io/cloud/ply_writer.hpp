@@ -18,25 +18,25 @@ struct PlyProperty {
   PlyType type = PlyType::Float;
 };
 
-/// Properties of the vertices of a PLY file (Turk 1994) and what its header says about them.
+/// Properties of the vertices of a PLY file (Turk 1994) and comments of its header.
 struct PlyLayout {
   std::vector<PlyProperty> properties;
   std::vector<std::string> comments;  ///< one line each
 
-  /// Returns the bytes of one vertex.
+  /// Returns the size of one vertex in bytes.
   std::size_t vertexBytes() const;
 };
 
-/// Returns the header of a binary little-endian file with this many vertices. The bytes of the vertices follow it, each
-/// with its properties in their order and without gaps.
+/// Returns the header of a binary little-endian file with this many vertices. The vertices follow it, each with its
+/// properties in order and without padding.
 std::string plyHeader(const PlyLayout& layout, std::size_t vertices);
 
 /// Appends the bytes of a number in little-endian order.
 template <typename Number>
 void appendLittleEndian(std::string& bytes, Number value);
 
-/// Writes a binary PLY file whose number of vertices is known at its end only. The file appears whole or not at all.
-/// Not thread-safe. Throws UserError or DataError naming the path.
+/// Writes a binary PLY file whose number of vertices need not be known in advance. The file is written completely or
+/// not at all. Not thread-safe. Throws UserError or DataError naming the path.
 class PlyWriter {
  public:
   PlyWriter(const std::string& path, PlyLayout layout);
@@ -44,7 +44,7 @@ class PlyWriter {
   /// Appends vertices. Requires a whole number of them.
   void append(std::string_view vertices) { file_.append(vertices); }
   std::size_t vertices() const { return file_.records(); }
-  /// Writes the header and gives the file its name.
+  /// Writes the header and renames the file to its final name.
   void commit();
 
  private:

@@ -10,8 +10,8 @@
 
 namespace urban_nav_core {
 
-/// A file of records of equal size after a header that depends on all of them. The file appears whole or not at all.
-/// Not thread-safe. Throws UserError or DataError naming the path.
+/// File of fixed-size records after a header that is written last. The file is written completely or not at all. Not
+/// thread-safe. Throws UserError or DataError naming the path.
 class RecordFile {
  public:
   RecordFile(const std::string& path, std::size_t header_bytes, std::size_t record_bytes);
@@ -22,7 +22,7 @@ class RecordFile {
   /// Appends records. Requires a whole number of them.
   void append(std::string_view records);
   std::size_t records() const { return records_; }
-  /// Writes the header and gives the file its name. Requires a header of `header_bytes`.
+  /// Writes the header and renames the file to its final name. Requires a header of `header_bytes`.
   void commit(std::string_view header);
 
  private:

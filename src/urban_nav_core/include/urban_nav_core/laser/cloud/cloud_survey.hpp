@@ -10,18 +10,18 @@
 
 namespace urban_nav_core {
 
-/// Finds out from several clouds of one 3D LiDAR how they are read, whatever the names of their fields.
+/// Determines from several clouds of one 3D LiDAR how to read them, independently of field names.
 ///
-/// Times: a sweep takes 10 ms to 1 s, so the span of a field's values has at most one unit; values of at most 1.5 s are
-/// relative to the header, larger ones are absolute. Fields with names of other quantities (x, intensity, range) are
-/// not considered, and those with unknown names only if their values rise or fall steadily. Rings: a field of
-/// whole numbers named ring, channel, line or the like; the rows or columns of an organised cloud if each has its
-/// elevation; otherwise elevations. Their numbers are replaced by places in the order of elevation.
+/// Times: a sweep takes 10 ms to 1 s, so at most one unit fits the span of a field's values; values of at most 1.5 s
+/// are relative to the header, larger ones are absolute. Fields named for other quantities (x, intensity, range) are
+/// not considered, and those with unknown names only if their values rise or fall steadily. Rings: an integer field
+/// named ring, channel, line or similar; the rows or columns of an organised cloud if each has a distinct elevation;
+/// otherwise elevations. Ring numbers are replaced by ranks of elevation.
 ///
 /// Not thread-safe.
 class CloudSurvey {
  public:
-  /// Number of clouds with points after which the decision is firm.
+  /// Number of clouds with points after which the result is final.
   static constexpr std::size_t kEnough = 8;
 
   explicit CloudSurvey(CloudOptions options = {});
@@ -29,12 +29,12 @@ class CloudSurvey {
   CloudSurvey& operator=(CloudSurvey&&) noexcept;
   ~CloudSurvey();
 
-  /// Adds a cloud. One without a point that can be used counts for nothing.
+  /// Adds a cloud. Clouds without usable points are not counted.
   void add(const CloudView& cloud);
   bool isComplete() const;
-  /// Returns the names of the fields of the last cloud with points, as a list for people; empty without one.
+  /// Returns the field names of the last cloud with points, as a list for messages; empty without such a cloud.
   const std::string& fieldNames() const;
-  /// Returns how clouds are read. Without a cloud, as points without times.
+  /// Returns the conventions found so far; without a cloud, those of points without times.
   CloudConvention conclude() const;
 
  private:

@@ -11,22 +11,22 @@
 
 namespace urban_nav_core {
 
-/// A field that each point of a cloud has.
+/// Field of the points of a cloud.
 struct CloudField {
   /// Kinds of numbers, counted as sensor_msgs/PointField does.
   enum class Number : std::uint8_t { Int8 = 1, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
 
   std::string name;
-  std::uint32_t offset = 0;  ///< bytes from the begin of a point
+  std::uint32_t offset = 0;  ///< bytes from the beginning of a point
   Number number = Number::Float32;
-  std::uint32_t count = 1;  ///< numbers of a point; only fields with one of them are read
+  std::uint32_t count = 1;  ///< numbers per point; only fields with one are read
 };
 
-/// A cloud as a message holds it: the fields of each point in a record of bytes, the records in rows. Does not own the
-/// bytes, and promises nothing: CloudPoints checks all of it.
+/// Non-owning view of a cloud in its message form: each point is a record of bytes, records are in rows. Contents are
+/// unchecked; CloudPoints validates them.
 struct CloudView {
   StampNs stamp = 0;                    ///< of the header
-  std::uint32_t width = 0, height = 0;  ///< points of a row, rows
+  std::uint32_t width = 0, height = 0;  ///< points per row, rows
   std::size_t point_step = 0;           ///< bytes from a point to the next one
   std::size_t row_step = 0;             ///< bytes from a row to the next one
   bool is_big_endian = false;
@@ -35,10 +35,10 @@ struct CloudView {
   std::size_t size = 0;  ///< bytes of data
 };
 
-/// The points of a cloud that can be read. The view and its bytes outlive this object. Safe for concurrent reading.
+/// Readable points of a cloud. The view and its bytes must outlive this object. Thread-safe for reading.
 class CloudPoints {
  public:
-  /// The numbers of one field.
+  /// Numbers of one field.
   class Field {
    public:
     Field() = default;
@@ -46,7 +46,7 @@ class CloudPoints {
 
     /// Returns whether the cloud has the field.
     explicit operator bool() const { return size_ > 0; }
-    /// Returns the number of a point, given its first byte; NaN without the field.
+    /// Returns the field's number of a point, given the point's first byte; NaN without the field.
     double operator()(const std::uint8_t* point) const;
 
    private:
@@ -55,14 +55,14 @@ class CloudPoints {
     bool is_swapped_ = false;
   };
 
-  /// Steps of rows that the data contradict (0, or for all rows at once) are replaced by those of rows without gaps.
+  /// A row step that contradicts the data (0, or the size of all rows) is replaced by that of rows without gaps.
   explicit CloudPoints(const CloudView& cloud);
 
-  /// Returns why no point can be read: fields or bytes that are missing. Empty: they can be, if there are any.
+  /// Returns why no point can be read: fields or bytes that are missing. Empty if points can be read.
   const std::string& fault() const { return fault_; }
-  /// Returns the number of points whose bytes are there.
+  /// Returns the number of points whose bytes are present.
   std::size_t size() const { return size_; }
-  /// Returns the number of points that are announced without bytes.
+  /// Returns the number of declared points whose bytes are missing.
   std::size_t missing() const { return missing_; }
   std::size_t columns() const { return columns_; }
   std::size_t rows() const { return rows_; }
@@ -70,7 +70,7 @@ class CloudPoints {
   const std::uint8_t* at(std::size_t point) const {
     return cloud_.data + point / columns_ * row_step_ + point % columns_ * cloud_.point_step;
   }
-  /// Returns the field of a name; one without numbers if it is missing or lies outside the record of a point.
+  /// Returns the field of this name; an empty one if it is missing or lies outside a point's record.
   Field field(std::string_view name) const;
   const CloudView& cloud() const { return cloud_; }
 
@@ -80,7 +80,7 @@ class CloudPoints {
   std::size_t columns_ = 1, rows_ = 0, row_step_ = 0, size_ = 0, missing_ = 0;
 };
 
-/// Returns the bytes of a number.
+/// Returns the size of a number in bytes.
 std::size_t numberSize(CloudField::Number number);
 
 }  // namespace urban_nav_core

@@ -10,7 +10,7 @@
 
 namespace urban_nav_core {
 
-/// Which field of a cloud holds the times of its points, and what its numbers mean.
+/// Field of a cloud with the times of its points, and the meaning of its values.
 struct PointTimes {
   enum class Unit : std::uint8_t { Seconds, Milliseconds, Microseconds, Nanoseconds };
   enum class Reference : std::uint8_t {
@@ -29,12 +29,12 @@ struct PointTimes {
 /// Return "s", "ms", "us" or "ns"; "header" or "absolute".
 const char* toString(PointTimes::Unit unit);
 const char* toString(PointTimes::Reference reference);
-/// Returns the nanoseconds in one unit.
+/// Returns the length of a unit in nanoseconds.
 double nanoseconds(PointTimes::Unit unit);
 
-/// Returns "FIELD,UNIT,REFERENCE", as `input.points_time` takes it; "none" without times.
+/// Returns "FIELD,UNIT,REFERENCE", the format of `input.points_time`; "none" without times.
 std::string printPointTimes(const PointTimes& times);
-/// Parses such a text. Returns nullopt for any other.
+/// Parses this format; nullopt for any other text.
 std::optional<PointTimes> parsePointTimes(std::string_view text);
 
 }  // namespace urban_nav_core

@@ -11,36 +11,36 @@
 
 namespace urban_nav_core {
 
-/// A cloud read as a sweep, and what was wrong with it.
+/// Sweep of a cloud, with the faults found while reading.
 struct ReadSweep {
-  /// Whether the times of this cloud are used, and why not.
+  /// Whether the times of this cloud are used, or the reason why not.
   enum class Times {
     Used,
-    None,        ///< by the convention
-    Constant,    ///< all the same
+    None,        ///< none, according to the convention
+    Constant,    ///< all equal
     Decreasing,  ///< the first point has the last time
-    Span         ///< they span more than a sweep can
+    Span         ///< they span more than a sweep may take
   };
 
   Sweep sweep;              ///< without beams if no point can be used
-  std::string fault;        ///< why the bytes cannot be read; empty: they can
-  std::size_t points = 0;   ///< of the cloud
-  std::size_t invalid = 0;  ///< without a finite place, at the origin, or farther than any LiDAR measures
-  std::size_t near = 0;     ///< left out because they are nearer than CloudOptions::nearest
-  std::size_t untimed = 0;  ///< left out because their time is not within the sweep
-  std::size_t missing = 0;  ///< announced, but without bytes
-  std::size_t rings = 0;    ///< that have a beam
+  std::string fault;        ///< why the bytes cannot be read; empty: no fault
+  std::size_t points = 0;   ///< in the cloud
+  std::size_t invalid = 0;  ///< without finite coordinates, at the origin, or beyond the range of any LiDAR
+  std::size_t near = 0;     ///< discarded because nearer than CloudOptions::nearest
+  std::size_t untimed = 0;  ///< discarded because their time is outside the sweep
+  std::size_t missing = 0;  ///< declared, but without bytes
+  std::size_t rings = 0;    ///< number of rings with a beam
   Times times = Times::None;
-  double clock = 0.0;  ///< s by which times were moved to the clock of the headers; 0: none
+  double clock = 0.0;  ///< s by which times were shifted to the clock of the headers; 0: not shifted
 };
 
-/// Reads clouds of one 3D LiDAR as sweeps. Reading is safe from several threads.
+/// Converts clouds of one 3D LiDAR to sweeps. Thread-safe for reading.
 class SweepReader {
  public:
   SweepReader(CloudConvention convention, CloudOptions options);
 
-  /// Returns the sweep of a cloud. Whatever its bytes: no number of a beam is NaN, directions are unit vectors, stamps
-  /// lie within a second of the reference.
+  /// Returns the sweep of a cloud. For any input, all numbers of a beam are finite, directions are unit vectors and
+  /// stamps lie within a second of the reference.
   ReadSweep read(const CloudView& cloud) const;
   const CloudConvention& convention() const { return convention_; }
 
@@ -49,11 +49,11 @@ class SweepReader {
   CloudOptions options_;
 };
 
-/// Puts beams into the order of time, then of column and ring; those that are equal stay as they are.
+/// Sorts beams by time, column and ring; stable.
 void sortBeams(std::vector<Beam>& beams);
 
-/// Returns the share of a turn that a spinning sensor has completed when it measures in a direction of its frame,
-/// 0...1. The turn begins and ends backwards (-x); it is clockwise seen from above, or not.
+/// Returns the share of a revolution completed when a spinning sensor measures in this direction of its frame, 0...1. A
+/// revolution begins and ends at -x. `is_clockwise`: seen from above.
 double shareOfTurn(double x, double y, bool is_clockwise);
 
 }  // namespace urban_nav_core
