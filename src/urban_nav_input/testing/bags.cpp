@@ -77,7 +77,7 @@ void rewriteBag(const std::string& from, const std::string& to, Rewrite how) {
 }
 
 void splitBag(const std::string& from, const std::vector<std::string>& parts) {
-  constexpr double kSpeed = 0.5;  // m/s, of the drive that makeKittiFolder() renders
+  constexpr double kSpeed = 0.5;  // m/s, of the drive rendered by makeKittiFolder()
   rosbag::Bag in(from, rosbag::bagmode::Read);
   std::list<rosbag::Bag> out;
   for (const std::string& part : parts) out.emplace_back(part, rosbag::bagmode::Write);

@@ -23,7 +23,7 @@ namespace {
 constexpr std::int64_t kMatchedSamples = 24;  // pairs whose images are matched
 constexpr double kIncomplete = 0.01;          // share of pairs: above it, a finding
 
-/// Faults of single pairs, alike ones counted together.
+/// Faults of single pairs, with equal ones counted together.
 class FaultCounter {
  public:
   void add(const std::string& fault) {
@@ -66,7 +66,7 @@ std::vector<std::string> describe(const SourceInfo& info) {
   return contents;
 }
 
-/// Reads the pairs, and hands a sample of them with their neighbours to the judge of images.
+/// Reads the pairs, and passes a sample of them with their neighbours to the checks of images.
 class Reading {
  public:
   Reading(Source& source, Diagnosis& diagnosis)
@@ -87,7 +87,7 @@ class Reading {
     }
   }
 
-  /// `stereo_scale`: true length over that of stereo, as far as a finding of the calibration states it.
+  /// Completes the diagnosis. `stereo_scale`: ratio of true to stereo length according to a finding on the calibration.
   void conclude(double stereo_scale) {
     const auto append = [this](const std::vector<Finding>& found) {
       diagnosis_.findings.insert(diagnosis_.findings.end(), found.begin(), found.end());
@@ -167,8 +167,8 @@ std::vector<std::string> separateUnreadable(const std::vector<std::string>& inpu
 
 namespace {
 
-/// Returns the source of a session. Where the baseline in the calibration is below zero, opens it with the other sign,
-/// so that it can be read, and sets `fault` to the error.
+/// Returns the source of a session. If the baseline of the calibration is negative, opens it with the opposite sign and
+/// sets `fault` to the error.
 std::unique_ptr<Source> openToExamine(const InputSession& session, SourceOptions& options,
                                       std::optional<Finding>& fault) {
   try {
@@ -185,7 +185,7 @@ std::unique_ptr<Source> openToExamine(const InputSession& session, SourceOptions
   }
 }
 
-/// Returns the scale of the baseline that the options of a finding state.
+/// Returns the scale of the baseline in the options of a finding.
 std::optional<double> statedBaselineScale(const Finding& finding) {
   const std::string name = "input.baseline_scale=";
   for (const std::string& option : finding.options)
@@ -193,7 +193,7 @@ std::optional<double> statedBaselineScale(const Finding& finding) {
   return std::nullopt;
 }
 
-/// Completes the finding of a baseline below zero by what the images show: exchanged cameras, or a wrong sign.
+/// Completes the finding of a negative baseline by the images: exchanged cameras, or a wrong sign.
 Finding baselineFinding(Finding fault, const SourceOptions& options, std::vector<Finding>& found) {
   const auto exchanged = std::find_if(found.begin(), found.end(), [](const Finding& finding) {
     return finding.kind == FindingKind::Pairs && finding.text.find("are exchanged") != std::string::npos;

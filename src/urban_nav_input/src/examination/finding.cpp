@@ -7,7 +7,7 @@ namespace urban_nav_input {
 
 namespace {
 
-/// A part of a reader's sentence and what it means.
+/// A part of a sentence of a reader, with the kind of finding and its remedy.
 struct KnownSentence {
   const char* part;
   FindingKind kind;
@@ -63,7 +63,7 @@ constexpr KnownSentence kKnownSentences[] = {
 
 bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
-/// Returns a remedy with the name that a sentence has in quotation marks in place of the word FRAME.
+/// Returns a remedy with the word FRAME replaced by the quoted name of a sentence.
 std::string nameFrame(std::string remedy, const std::string& sentence) {
   const std::size_t word = remedy.rfind("FRAME"), open = sentence.find('"');
   const std::size_t close = open == std::string::npos ? open : sentence.find('"', open + 1);

@@ -30,7 +30,7 @@ using urban_nav_core::Vector3d;
 
 namespace {
 
-/// Adds stamps up to figures.
+/// Accumulates the figures of stamps.
 class Counter {
  public:
   Counter(std::string name, std::string type) { info_.name = std::move(name), info_.type = std::move(type); }
@@ -59,7 +59,7 @@ class Counter {
   StampNs newest_ = 0;
 };
 
-/// Counts a topic by the stamps of its headers, and by receipt where they are not set or do not change.
+/// Counts a topic by the stamps of its headers, or by receipt if they are not set or constant.
 class TopicCounter {
  public:
   explicit TopicCounter(const Connection& connection)
@@ -74,7 +74,7 @@ class TopicCounter {
 
   StreamInfo info() const { return hasStamps() ? stamps_.info() : receipts_.info(); }
 
-  /// Returns what a user should know of the stamps, mostly nothing.
+  /// Returns a note on the stamps for the user, mostly empty.
   std::string note() const {
     constexpr double kApart = 1.0;  // s
     const StreamInfo stamps = stamps_.info(), receipts = receipts_.info();
@@ -91,7 +91,7 @@ class TopicCounter {
   }
 
  private:
-  /// Whether the messages of a connection begin with a header.
+  /// Returns whether the messages of a connection begin with a header.
   static bool beginsWithHeader(const Connection& connection) {
     try {
       const MessageDefinition definition = findDefinition(connection);
@@ -156,7 +156,7 @@ void addKittiStreams(const std::string& path, InputInfo& info) {
   const std::map<std::int64_t, std::string> files = listKittiSweeps(*sweeps);
   const KittiLayout layout{path, sweeps->files, sweeps->files, urban_nav_core::KittiPair::Grey};
   const std::int64_t first = files.begin()->first;
-  std::vector<std::string> notes;  // are those of the source
+  std::vector<std::string> notes;  // reported by the source
   const std::vector<StampNs> all = stampKittiFrames(layout, "sweeps", {first, files.rbegin()->first}, 0.0, notes);
   std::vector<StampNs> stamps;
   for (const auto& [number, file] : files) stamps.push_back(all[static_cast<std::size_t>(number - first)]);

@@ -20,9 +20,9 @@ using urban_nav_ros::matchFeatures;
 
 namespace {
 
-constexpr int kFewFeatures = 100;                      // of an image; fewer: nothing to match
-constexpr int kFewMatches = 15;                        // on neighbouring rows, in a pair that shows one scene
-constexpr double kMaxRowError = 20.0, kSameRow = 1.5;  // px
+constexpr int kFewFeatures = 100;                                 // per image; fewer are not matched
+constexpr int kFewMatches = 15;                                   // on neighbouring rows, for a pair of the same scene
+constexpr double kMaxRowError = 20.0, kSameRow = 1.5;             // px
 constexpr double kOffsetTolerance = 0.8, kCornerTolerance = 1.6;  // px: above, stereo along rows loses features
 constexpr double kAlikeRows = 4.0, kLeastAlike = 0.3;             // px; share of matches
 constexpr double kMaxScatter = 1.3;                               // px, root mean square
@@ -85,7 +85,7 @@ void PairCheck::add(const ImageView& left, const ImageView& right, const ImageVi
     found.push_back({a.x - half_width_, a.y - half_height_, a.x - b.x, b.y - a.y});
     rows.push_back(b.y - a.y);
   }
-  // Of one scene, most matches have nearly the same row error; chance matches have any.
+  // Matches of the same scene have similar row errors, wrong matches have random ones.
   const double row = rows.empty() ? 0.0 : medianValue(rows);
   const auto alike =
       std::count_if(rows.begin(), rows.end(), [row](double dv) { return std::abs(dv - row) < kAlikeRows; });
@@ -143,7 +143,7 @@ void PairCheck::orderFindings(const SourceInfo& info, StampNs interval, std::vec
 void PairCheck::rowsFindings(const SourceInfo& info, std::vector<Finding>& findings) const {
   constexpr std::size_t kFew = 100;
   if (matches_.size() < kFew) return;
-  // Robust plane through the row errors: the median, then least squares over what lies near it, narrower each time.
+  // Robust plane through the row errors: the median, then least squares with a shrinking inlier band.
   std::vector<double> rows;
   for (const Match& match : matches_) rows.push_back(match.dv);
   Eigen::Vector3d plane(medianValue(rows), 0.0, 0.0);

@@ -12,9 +12,8 @@ using urban_nav_core::StereoPair;
 
 namespace {
 
-constexpr std::int64_t kShortRun = 3;  // repeated images of one camera in series while the other goes on
-constexpr std::int64_t kLongRun =
-    20;  // pairs in series of which both images repeat: the noise of a sensor rules that out
+constexpr std::int64_t kShortRun = 3;  // consecutive repeated images of one camera while the other one changes
+constexpr std::int64_t kLongRun = 20;  // consecutive pairs of which both images repeat, impossible with sensor noise
 constexpr std::int64_t kFewRuns = 3;
 constexpr double kManyRuns = 0.1;  // share of pairs at which images begin to repeat
 
@@ -26,7 +25,7 @@ bool isSame(const ImageView& a, const ImageView& b) {
   return true;
 }
 
-/// Returns whether all pixels are equal: nothing in such images could change.
+/// Returns whether all pixels are equal, as in saturated images, which repeat without a fault.
 bool isUniform(const ImageView& image) {
   const std::uint8_t first = *image.row(0);
   for (int v = 0; v < image.height; ++v)

@@ -25,13 +25,13 @@ constexpr double kLeastDisparity = 3.0;  // px: beyond, depth is too uncertain f
 constexpr int kLeastInliers = 25;
 constexpr float kReprojection = 2.0F;  // px
 constexpr int kPnpTrials = 200;
-constexpr double kBelow = 0.15;           // m below the camera: what may be ground
+constexpr double kBelow = 0.15;           // m below the camera, for points that may be ground
 constexpr double kFarthestGround = 12.0;  // m
 constexpr std::size_t kLeastGround = 40;  // points
 constexpr double kGroundShare = 0.5;      // share of the points below the camera
 constexpr int kGroundTrials = 200;
 constexpr double kSteepest = 0.5;      // cosine of 60 deg
-constexpr double kGroundSpread = 0.3;  // least standard deviation of the ground's points along its lesser side, m
+constexpr double kGroundSpread = 0.3;  // least standard deviation of the ground points along the shorter axis, m
 
 /// Returns the point of each left feature in the left optical frame; empty for features without a stereo match.
 std::vector<std::optional<Vector3d>> triangulateFeatures(const StereoCamera& camera, const ImageFeatures& left,
@@ -81,7 +81,7 @@ std::optional<SeenGround> findGround(const std::vector<Vector3d>& points) {
   for (const Vector3d& point : points)
     if (point.z() < -kBelow && point.norm() < kFarthestGround) low.push_back(point);
   if (low.size() < kLeastGround) return std::nullopt;
-  const auto tolerance = [](const Vector3d& point) { return 0.03 + 0.02 * point.norm(); };  // m: stereo's depth
+  const auto tolerance = [](const Vector3d& point) { return 0.03 + 0.02 * point.norm(); };  // m, error of stereo depth
   std::mt19937 random(1);
   const auto draw = [&]() -> const Vector3d& { return low[random() % low.size()]; };
   std::size_t most = 0;

@@ -10,11 +10,11 @@
 
 namespace urban_nav_input {
 
-/// Returns what is wrong with the stamps of successive stereo pairs: stamps that do not ascend, gaps, a low rate,
-/// intervals that are not even.
+/// Returns defects of the stamps of successive stereo pairs: stamps that do not ascend, gaps, a low rate, uneven
+/// intervals.
 std::vector<Finding> checkStamps(const std::vector<urban_nav_core::StampNs>& stamps);
 
-/// Returns what is wrong with the rates of inertial units and lasers: an IMU that is too slow, streams with gaps.
+/// Returns defects of the rates of IMUs and lasers: a low rate of an IMU, streams with gaps.
 std::vector<Finding> checkStreams(const std::vector<StreamInfo>& streams);
 
 }  // namespace urban_nav_input

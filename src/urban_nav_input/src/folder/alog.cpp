@@ -36,7 +36,7 @@ bool isVariable(std::string_view word) {
   return !word.empty() && word[0] >= 'A' && word[0] <= 'Z' && std::all_of(word.begin(), word.end(), upper);
 }
 
-// What begins with number, blank, upper-case name is a row; anything else goes on with the value before.
+// A line that begins with number, blank, upper-case name is a row; other lines continue the previous value.
 std::optional<AlogRow> beginningOfRow(std::string_view line, int number) {
   std::string_view rest = line;
   const auto logged = parseStamp(takeWord(rest));
@@ -96,7 +96,7 @@ std::optional<AlogRow> AlogReader::next() {
     }
     auto beginning = beginningOfRow(line_.empty() ? " " : line_, number_);
     if (beginning && row) {
-      has_line_ = true;  // of the row after this one
+      has_line_ = true;  // of the next row
       return row;
     }
     if (beginning) {
@@ -145,7 +145,7 @@ std::string_view AlogFields::text(std::string_view key) const {
 
 namespace {
 
-// Beyond this a number is damaged: squares of it overflow, sines of it mean nothing.
+// Larger numbers indicate damage: their squares overflow, their sines are meaningless.
 constexpr double kLargestNumber = 1e12;
 bool isSensible(const std::optional<double>& number) { return number && std::abs(*number) <= kLargestNumber; }
 

@@ -98,7 +98,7 @@ class EurocFolder : public Source {
       throw urban_nav_core::DataError(mav0_, "has no imu0 for input.motion_input = gyroscope", "");
   }
 
-  /// They level the map; without them it is as the first pose stands, and nothing else is lost.
+  /// Reads the specific forces, used only to align the map with gravity.
   void readForces(const urban_nav_core::AccelerometerConvention& convention) {
     try {
       urban_nav_ros::Accelerometer accelerometer(rig_.T_base_body.R(), convention);

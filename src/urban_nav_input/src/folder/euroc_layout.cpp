@@ -26,7 +26,7 @@ using urban_nav_core::Vector3d;
 
 namespace {
 
-/// The images of a camera in order of stamps; later ones of the same stamp are left out.
+/// Returns the images of a camera in order of stamps, without later ones of the same stamp.
 std::vector<std::pair<StampNs, std::string>> readImages(const std::string& camera, std::vector<std::string>* notes) {
   const std::string path = (fs::path(camera) / "data.csv").string();
   const EurocTable table = readEurocTable(path, 2, "stamp in ns, file name");
@@ -96,7 +96,7 @@ EurocRig readEurocRig(const std::string& mav0) {
 
 namespace {
 
-/// Returns the standard deviation of one rate, rad/s; 0 where the folder does not state it.
+/// Returns the standard deviation of one rate, rad/s; 0 if not stated in the folder.
 double readRateSigma(const std::string& mav0) {
   const std::string path = (fs::path(mav0) / "imu0" / "sensor.yaml").string();
   if (!fs::exists(path)) return 0.0;
@@ -104,7 +104,7 @@ double readRateSigma(const std::string& mav0) {
     const urban_nav_core::EurocImu imu = urban_nav_core::readEurocImu(path);
     return imu.gyroscope_noise * std::sqrt(imu.rate_hz);
   } catch (const urban_nav_core::Error&) {
-    return 0.0;  // then it is found from the rates
+    return 0.0;  // then estimated from the rates
   }
 }
 

@@ -21,8 +21,8 @@ namespace {
 
 constexpr double kLargestSeconds = 1e11;  // a stamp in s is smaller, in ns larger than 1e17 since 1973
 
-/// Returns the size in s of the unit of stamps: seconds where they have decimals and the size of seconds, else what the
-/// header states, else ns.
+/// Returns the unit of stamps in s: seconds if they have decimals and the size of seconds, else that of the header,
+/// else ns.
 double guessUnitOfAll(const std::vector<std::string>& header, const std::vector<EurocRow>& rows) {
   double largest = 0.0;
   bool has_decimals = false;
@@ -30,7 +30,7 @@ double guessUnitOfAll(const std::vector<std::string>& header, const std::vector<
     largest = std::max(largest, std::abs(urban_nav_core::parseNumber(row.cells.front()).value_or(0.0)));
     has_decimals = has_decimals || row.cells.front().find('.') != std::string::npos;
   }
-  if (has_decimals && largest < kLargestSeconds) return 1.0;  // whatever a header of EuRoC's format states
+  if (has_decimals && largest < kLargestSeconds) return 1.0;  // for any header of the EuRoC format
   return header.empty() ? 1e-9 : urban_nav_core::readUnit(header.front()).value_or(1e-9);
 }
 
@@ -63,7 +63,7 @@ EurocTable readEurocTable(const std::string& path, std::size_t columns, const st
     row.where = lines.where(line);
     row.cells.assign(line.cells.begin(), line.cells.end());
     const bool is_header = !urban_nav_core::parseNumber(row.cells.front()) && rows.empty() && lines.header().empty();
-    if (is_header && !std::exchange(has_header, true)) return;  // whose width differs from the rows'
+    if (is_header && !std::exchange(has_header, true)) return;  // its width may differ from that of the rows
     rows.push_back(std::move(row));
   });
   table.unit = guessUnitOfAll(lines.header(), rows);

@@ -26,8 +26,8 @@ bool startsWith(const std::vector<char>& bytes, std::string_view magic) {
   return asText(bytes).substr(0, magic.size()) == magic;
 }
 
-/// Do PNG and JPEG end as they must? (A camera may append a few bytes to a JPEG, so its end is looked for in the last
-/// kilobyte.)
+/// Returns whether a PNG or JPEG has its end marker. (Cameras may append a few bytes to a JPEG: the marker is searched
+/// in the last kilobyte.)
 bool isComplete(const std::vector<char>& bytes) {
   const std::string_view text = asText(bytes);
   const std::string_view tail = text.substr(text.size() > 1024 ? text.size() - 1024 : 0);
@@ -64,7 +64,7 @@ urban_nav_ros::GreyScale sampleGreyScale(const std::vector<std::string>& paths) 
   for (std::size_t i = 0; i < std::min(kSampled, paths.size()); ++i) {
     const GreyImage image = readPixels(paths[i]);
     if (image.pixels.empty()) continue;
-    if (image.pixels.depth() != CV_16U) break;  // nor are the others, as a rule
+    if (image.pixels.depth() != CV_16U) break;  // then usually the others are not either
     range.add(urban_nav_ros::toDeepGrey(image.pixels).pixels);
   }
   return range.scale();

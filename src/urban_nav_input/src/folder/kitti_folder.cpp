@@ -78,7 +78,7 @@ class KittiFolder : public Source {
   }
 
  private:
-  static constexpr std::size_t kMostSweeps = 4;  // of one item
+  static constexpr std::size_t kMostSweeps = 4;  // per item
 
   void listImages(const KittiLayout& layout, const SourceOptions& options) {
     layout_ = layout;
@@ -131,7 +131,7 @@ class KittiFolder : public Source {
       info_.notes.push_back(std::move(sentence));
   }
 
-  /// Size and depth of the images, from the first that can be read, and with the size the camera.
+  /// Determines size and depth of the images from the first readable one, and reads the camera for this size.
   void look(const std::string& calibration) {
     std::string fault;
     for (const std::map<std::int64_t, std::string>* side : {&frames_.left, &frames_.right}) {
@@ -150,7 +150,7 @@ class KittiFolder : public Source {
     throw urban_nav_core::DataError(info_.name, "no image can be read, the first: " + fault, "");
   }
 
-  /// One range of grey values for both cameras, from the first images of each.
+  /// Determines the common grey range of both cameras from the first images of each.
   void lookAtDepth() {
     constexpr std::size_t kSampledImages = 20;
     std::vector<std::string> paths;
@@ -162,7 +162,7 @@ class KittiFolder : public Source {
     scale_ = sampleGreyScale(paths);
   }
 
-  /// By the user's files where there are any, else by the folder's.
+  /// Reads the calibration from the files of the user, else from the folder.
   void calibrate(const std::string& files) {
     if (files.empty()) {
       info_.camera = readKittiCamera(layout_, size_.width, size_.height);
@@ -209,7 +209,7 @@ class KittiFolder : public Source {
   const double baseline_scale_;
   KittiFrames frames_;
   SourceInfo info_;
-  std::optional<urban_nav_ros::StereoCalibration> calibration_;  // where the user gave one
+  std::optional<urban_nav_ros::StereoCalibration> calibration_;  // if given by the user
   cv::Size size_;                                                // of the images in the folder
   urban_nav_ros::GreyScale scale_;
   std::size_t position_ = 0;

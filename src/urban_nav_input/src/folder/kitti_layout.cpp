@@ -27,7 +27,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr double kUsualRate = 10.0;          // Hz, of KITTI's cameras
+constexpr double kUsualRate = 10.0;          // Hz, of the cameras of KITTI
 constexpr std::int64_t kMostMissing = 1000;  // frames: more than that is another naming scheme
 
 StampNs daysSince1970(int year, int month, int day) {  // Howard Hinnant, "chrono-compatible low-level date algorithms"

@@ -31,7 +31,7 @@ float readFloat(const std::uint8_t* bytes) {
   return value;
 }
 
-/// Returns the first file of these names that is there, in the folder or above it; empty without one.
+/// Returns the file of this name in the folder or above it; empty without one.
 std::string findFile(const std::string& folder, const char* name) {
   const fs::path above = fs::absolute(fs::path(folder) / ".").lexically_normal().parent_path().parent_path();
   for (const fs::path& path : {fs::path(folder) / name, above / name})
@@ -113,7 +113,7 @@ void KittiCloud::addTimesAndRings(std::size_t points) {
   }
   has_rings_ = ring + 1 >= kFewestRings && ring + 1 <= kMostRings;
   for (std::size_t i = 0; has_rings_ && i < points; ++i) {
-    // The lowest rings always hit the ground; those at the top may have no points, and then no number.
+    // Counted from the lowest rings, which always hit the ground; top rings may have no points.
     const auto from_below = static_cast<std::uint16_t>(ring - rings[i]);
     std::memcpy(&bytes_[i * kRecord + kStored + 4], &from_below, sizeof(from_below));
   }

@@ -22,7 +22,7 @@ namespace {
 constexpr int kDepth = 3;
 constexpr int kLadybugCameras = 5;
 
-/// "left" or "right" of "...-left.pnm"; empty for other names.
+/// Returns "left" or "right" for "...-left.pnm"; empty for other names.
 std::string findSide(const fs::path& path) {
   const std::string stem = path.stem().string();
   for (const char* side : {"left", "right"}) {
@@ -31,7 +31,7 @@ std::string findSide(const fs::path& path) {
   return "";
 }
 
-/// K of "ladybug_TIME-K.jpg"; -1 for other names.
+/// Returns K of "ladybug_TIME-K.jpg"; -1 for other names.
 int ladybugCamera(const fs::path& path) {
   const std::string name = path.filename().string(), stem = path.stem().string();
   if (name.rfind("ladybug_", 0) != 0 || stem.size() < 3 || stem[stem.size() - 2] != '-' || !isImageName(name))

@@ -19,11 +19,11 @@ using urban_nav_core::UserError;
 using urban_nav_core::Vector3d;
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr StampNs kWindow = 2000000000;       // rows come at most 0.9 s late
-constexpr StampNs kSameStamp = 100000;        // one of the two is printed with four decimals
-constexpr double kLongestOff = 3600.0;        // s between a value's time and the logger's: more is damage
-constexpr double kNeighbour = 0.2;            // s: headings further apart say little about the turning rate now
-constexpr double kLadybugPeriod = 0.0133381;  // s a turn of the LMS, a straight line through the log's stamps
+constexpr StampNs kWindow = 2000000000;       // rows are at most 0.9 s late
+constexpr StampNs kSameStamp = 100000;        // one of the stamps has only four decimals
+constexpr double kLongestOff = 3600.0;        // s between the time of a value and of logging; more indicates damage
+constexpr double kNeighbour = 0.2;            // s: headings further apart do not give the current turn rate
+constexpr double kLadybugPeriod = 0.0133381;  // s per turn of the LMS, from a line fit through the stamps of the log
 constexpr double kRangeMax = 80.0;            // m, reach of the LMS291
 
 double computeYaw(const Pose& T) { return 2.0 * std::atan2(T.q().z(), T.q().w()); }
@@ -37,7 +37,8 @@ std::string baseName(std::string_view path) {
   return std::string(slash == std::string_view::npos ? path : path.substr(slash + 1));
 }
 
-// theta = 0 faces the log's +y, counter-clockwise. The tilt comes later, from RAW: this row's own is turned by theta.
+// theta = 0 is the +y axis of the log, counter-clockwise. The tilt is added from RAW, since that of this row is rotated
+// by theta.
 NewCollegeOdometry parseOdometry(const AlogFields& fields, StampNs stamp) {
   const auto pose = fields.array("Pose", 3);
   NewCollegeOdometry odometry;
@@ -173,14 +174,13 @@ void NewCollegeLog::complete(NewCollegeOdometry& odometry) {
     ++counts_.odometry_without_tilt;
     return;
   }
-  // RAW's pitch is about the axis to the right, its roll positive with the left side up.
+  // In RAW, pitch is about the axis to the right, and roll is positive with the left side up.
   const double yaw = computeYaw(odometry.T_odom_base);
   odometry.T_odom_base = Pose(rollPitchYaw(tilt->second.roll, -tilt->second.pitch, yaw), odometry.T_odom_base.t());
   odometry.pitch_rate = -tilt->second.pitch_rate;
 }
 
-// Between the headings before and after, which has no lag; at the ends and beside gaps between this one and its
-// neighbour.
+// Central difference of the headings, without lag; one-sided at the ends and at gaps.
 double NewCollegeLog::yawRate(const NewCollegeOdometry& odometry) const {
   const NewCollegeOdometry* before =
       last_odometry_ && secondsBetween(last_odometry_->stamp, odometry.stamp) <= kNeighbour ? &*last_odometry_

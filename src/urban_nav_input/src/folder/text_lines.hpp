@@ -11,7 +11,8 @@ struct TextLine {
   std::string text;
 };
 
-/// The lines of a small text file that are neither blank nor begin with '#' or '%'. UserError as readTextFile.
+/// Returns the lines of a small text file that are neither blank nor begin with '#' or '%'. Throws the errors of
+/// readTextFile().
 std::vector<TextLine> readLines(const std::string& path);
 
 }  // namespace urban_nav_input

@@ -32,8 +32,8 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr std::uint32_t kQueue = 100;                                  // messages for each subscriber
-constexpr std::chrono::milliseconds kClockPeriod(10), kMostSleep(10);  // services are served so often
-constexpr double kLastMessages = 0.5;                                  // s that subscribers have to receive them
+constexpr std::chrono::milliseconds kClockPeriod(10), kMostSleep(10);  // period of serving services
+constexpr double kLastMessages = 0.5;                                  // s for subscribers to receive them
 
 class RecordingPlayer {
  public:
@@ -71,7 +71,7 @@ class RecordingPlayer {
     if (topics_.count(key) > 0 || refused_.count(key) > 0) return;
     try {
       Topic topic{Ros1Form(connection), {}, connection.is_latched};
-      // rosbag2 keeps the durability of topics in words that differ by version; this one is always latched.
+      // rosbag2 stores the durability of topics in a version-dependent form; this topic is always latched.
       topic.is_latched = topic.is_latched || connection.topic == urban_nav_ros::topics::kStaticTransforms;
       ros::AdvertiseOptions about(connection.topic, kQueue, topic.form.connection().md5, connection.type,
                                   topic.form.connection().definition);
@@ -152,7 +152,7 @@ class RecordingPlayer {
   const PlayerOptions options_;
   Recording recording_;
   bool is_paused_;
-  StampNs begin_ = 0;  // receipt from which it is played
+  StampNs begin_ = 0;  // receipt at which playback begins
   std::map<Key, Topic> topics_;
   std::set<Key> refused_;
   ros::NodeHandle node_, private_node_{"~"};

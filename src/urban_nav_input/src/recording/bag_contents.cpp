@@ -23,7 +23,7 @@ constexpr std::size_t kTfSamples = 1000;
 constexpr double kSamePlace = 1e-3;                // m
 constexpr double kSameAngle = 0.1 * M_PI / 180.0;  // rad
 
-/// A link of /tf as it was first, and whether it was another one later.
+/// The first transform of a link of /tf, and whether it changed later.
 struct TfLink {
   geometry_msgs::TransformStamped first;
   Pose T_parent_child;
@@ -41,7 +41,7 @@ std::map<std::string, TfLink> readLinks(Recording& recording) {
     const std::size_t step = std::max<std::size_t>(1, selection.size() / kTfSamples);
     std::size_t i = 0;
     while (const std::optional<RecordedMessage> instance = selection.next()) {
-      // The first ones all, then some drawn by a hash (Knuth): publishers take turns, and a stride would meet the same.
+      // All of the first ones, then some drawn by a hash (Knuth), since a stride could select a single publisher.
       const std::uint32_t draw = static_cast<std::uint32_t>(i) * 2654435761U;
       if (i++ > kTfSamples / 10 && (draw >> 8U) % step != 0) continue;
       const auto message = instance->as<tf2_msgs::TFMessage>();

@@ -6,9 +6,8 @@
 
 namespace urban_nav_input {
 
-/// Returns the transforms of /tf_static, and for children that it lacks those of /tf whose links stay the same to 1 mm
-/// and 0.1 deg throughout the recording: sensors whose places are published again and again. Looks at a thousand
-/// messages of /tf, evenly distributed.
+/// Returns the transforms of /tf_static, and for missing children those of /tf that are constant to 1 mm and 0.1 deg
+/// throughout the recording. Reads a thousand evenly distributed messages of /tf.
 urban_nav_ros::StaticTransforms readTransforms(Recording& recording);
 
 }  // namespace urban_nav_input

@@ -19,7 +19,7 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr StampNs kLongestSplitNs = static_cast<StampNs>(1e9 * kLongestSplit);
-// A recorder that is started again before the one before it has ended records a little twice.
+// A recorder restarted before the end of the previous one records an overlap.
 constexpr StampNs kMostTwice = 1'000'000'000;  // ns
 
 BagExtent::Span readReceipts(MessageSelection& images) { return {images.first(), images.last()}; }
@@ -41,7 +41,7 @@ std::vector<std::string> findLeadingTopics(const Recording& bag) {
   return {};
 }
 
-/// Sets the spans of images by `span_of`. Whether all have one that does not end before it begins.
+/// Sets the spans of images by `span_of`. Returns whether all have a valid span.
 template <typename SpanOf>
 bool useImages(Recording& bag, BagExtent& extent, const SpanOf& span_of) {
   extent.images.clear();
@@ -68,15 +68,15 @@ BagExtent computeExtent(const std::string& path) {
   return extent;
 }
 
-/// Whether two spans share more than a recorder's restart explains.
+/// Returns whether two spans overlap by more than a restart of the recorder explains.
 bool overlap(const BagExtent::Span& a, const BagExtent::Span& b) {
   const StampNs shorter = std::min(a.second - a.first, b.second - b.first);
   return std::min(a.second, b.second) - std::max(a.first, b.first) > std::min(kMostTwice, shorter / 2);
 }
 
-/// Whether both hold images of one topic with stamps of the same time: two robots, two runs of a simulation or of a
-/// board whose clock starts anew, or a recording whose clock was set. Times of receipt do not count: they may be those
-/// of a conversion.
+/// Returns whether both have images of one topic with stamps of the same time: two robots, two runs of a simulation or
+/// of a board whose clock restarts, or a recording whose clock was set. Ignores times of receipt, which may be those of
+/// a conversion.
 bool areSimultaneous(const BagExtent& a, const BagExtent& b) {
   return std::any_of(a.images.begin(), a.images.end(), [&](const auto& topic) {
     const auto other = b.images.find(topic.first);
@@ -137,7 +137,7 @@ std::vector<std::vector<BagExtent>> separateRecordings(const std::vector<BagExte
   };
   std::vector<Group> recordings;
   for (const BagExtent& bag : bags) {
-    Group* nearest = nullptr;  // the one whose end is nearest to the begin of this bag
+    Group* nearest = nullptr;  // group whose end is nearest to the begin of this bag
     const auto apart = [&](const Group& recording) { return std::abs(bag.span.first - recording.end); };
     for (Group& recording : recordings) {
       const bool is_other = std::any_of(recording.bags.begin(), recording.bags.end(),

@@ -11,7 +11,7 @@
 
 namespace urban_nav_input {
 
-/// When a bag was recorded.
+/// Time span of a bag.
 struct BagExtent {
   using Span = std::pair<urban_nav_core::StampNs, urban_nav_core::StampNs>;  ///< ns; of the first and last message
 
@@ -23,17 +23,17 @@ struct BagExtent {
   std::size_t messages = 0;
 };
 
-/// Returns whether two bags hold the same messages, as a bag and its copy (also one that is compressed otherwise) do:
-/// as many, of the same times, with the same bytes of the first and last image of each topic.
+/// Returns whether two bags have the same messages, as a bag and its copy, also with another compression: equal numbers
+/// and times, and equal bytes of the first and last image of each topic.
 bool isSameRecording(const BagExtent& a, const BagExtent& b);
 
-/// The extents of bags in the order of their begin. Stamps tell what belongs together also where bags were converted or
-/// written anew, all at the same time; where the images of one bag have none, or it has no images, all are placed by
-/// receipt, since the two cannot be compared. Throws DataError for a bag that cannot be read.
+/// Returns the extents of bags in the order of their begin. Uses stamps, which are also valid for bags converted at the
+/// same time; if the images of any bag have no stamps, or it has no images, all use times of receipt, since the two
+/// cannot be compared. Throws DataError for a bag that cannot be read.
 std::vector<BagExtent> findExtents(const std::vector<std::string>& paths);
 
-/// Recordings that consist of some bags each, in the order of their begin: what is less than 5 s apart is one, unless
-/// both bags hold images of the same topic at the same time, which one robot cannot have recorded.
+/// Groups bags into recordings, in the order of their begin: bags less than 5 s apart are one recording, unless both
+/// have images of the same topic at the same time, which one robot cannot have recorded.
 std::vector<std::vector<BagExtent>> separateRecordings(const std::vector<BagExtent>& bags);
 
 }  // namespace urban_nav_input

@@ -9,17 +9,17 @@
 
 namespace urban_nav_input {
 
-/// Bags of a recording that were written at the same time, and are read as one.
+/// Bags of a recording that were written concurrently, and are read as one.
 struct BagGroup {
   std::vector<RecordingFile*> bags;
-  std::size_t end = 0;                  ///< bags up to the last of these, in the order of the recording
+  std::size_t end = 0;                  ///< index after the last of these bags, in the order of the recording
   urban_nav_core::StampNs receipt = 0;  ///< of the last message
 };
 
-/// The bags of a recording, which begin one after the other: a new group begins where all messages of the bags before
-/// were received before the first of it. The recording must outlive it.
+/// Groups the bags of a recording, in the order of their begin: a new group begins with a bag whose messages were all
+/// received after those of the previous bags. The recording must outlive the result.
 std::vector<BagGroup> groupBags(Recording& recording);
-/// All of them as one group: stamps of one bag may lie between those of another.
+/// Returns all bags as one group, if stamps of one bag are between those of another.
 std::vector<BagGroup> asOneGroup(const std::vector<BagGroup>& groups);
 
 }  // namespace urban_nav_input

@@ -14,8 +14,8 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr std::size_t kSamples = 400;          // of a bag
-constexpr StampNs kUsualDelays = 150'000'000;  // ns: within the 200 ms that the reader waits for late images
-constexpr StampNs kStep = 1'000'000'000;       // ns: back by more than that, a clock was set
+constexpr StampNs kUsualDelays = 150'000'000;  // ns, within the 200 ms for which the reader waits for late images
+constexpr StampNs kStep = 1'000'000'000;       // ns: a larger step back means that a clock was set
 
 struct Sample {
   std::string topic;
@@ -35,7 +35,7 @@ std::vector<Sample> drawSamples(Recording& recording, const std::vector<std::str
   return samples;
 }
 
-/// Whether each topic has several samples, of one stamp.
+/// Returns whether each topic has several samples, all with the same stamp.
 bool areConstant(const std::vector<Sample>& samples) {
   std::map<std::string, std::pair<StampNs, std::size_t>> topics;
   for (const Sample& sample : samples) {
@@ -64,7 +64,7 @@ StampNs readHeaderStamp(const RecordedMessage& message) {
 }
 
 std::pair<StampNs, StampNs> findStampSpan(MessageSelection& messages) {
-  constexpr std::size_t kEnds = 20;  // messages at either end, of several topics
+  constexpr std::size_t kEnds = 20;  // messages at each end, of several topics
   std::pair<StampNs, StampNs> span(std::numeric_limits<StampNs>::max(), 0);
   for (std::size_t i = 0; const std::optional<RecordedMessage> message = messages.next(); ++i) {
     if (i >= kEnds && i + kEnds < messages.size()) continue;

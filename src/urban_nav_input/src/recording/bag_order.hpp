@@ -11,32 +11,32 @@
 
 namespace urban_nav_input {
 
-/// How the stamps in the headers of a recording's images relate to the times at which the messages were received.
+/// Relation between the header stamps of the images of a recording and the times of receipt.
 struct StampSurvey {
-  /// Stamps of one topic ascend, but messages lie in another order than their stamps: the bags were converted, merged,
+  /// Stamps of one topic ascend, but messages are not in the order of their stamps: the bags were converted, merged,
   /// filtered, or recorded over a slow link.
   bool needs_sorting = false;
   /// No header has a stamp.
   bool unset = false;
   /// All stamps of each topic are equal, as from a driver that stamps with the time of its start.
   bool constant = false;
-  /// ns; by how much the stamps of a topic step back at most while times of receipt ascend: a clock was set.
+  /// ns; largest step back of the stamps of a topic while times of receipt ascend: a clock was set.
   urban_nav_core::StampNs back = 0;
 };
 
 /// Returns the stamp (ns) of a message that begins with a std_msgs/Header; 0 if it is too short or damaged.
 urban_nav_core::StampNs readHeaderStamp(const RecordedMessage& message);
 
-/// Returns the smallest and the largest header stamp of the first and last messages of a selection, about its span.
-/// Reads the selection to its end.
+/// Returns the smallest and the largest header stamp of the first and last messages of a selection, an approximation of
+/// its span. Reads the selection to its end.
 std::pair<urban_nav_core::StampNs, urban_nav_core::StampNs> findStampSpan(MessageSelection& messages);
 
-/// Looks at a few hundred messages of the topics, evenly distributed over the part of the bags within `range`.
+/// Surveys a few hundred messages of the topics, evenly distributed over the part of the bags within `range`.
 StampSurvey surveyStamps(Recording& recording, const std::vector<std::string>& topics, const ReceiptRange& range = {});
 
-/// Messages of some bags one after another: as they were received, or in the order of their header stamps, those of
-/// equal stamps as they were received. Sorting reads all of them once, keeps some 60 bytes for each, and requires
-/// topics whose messages have headers. Messages received outside `range` are left out.
+/// Reads the messages of some bags in the order of receipt, or of their header stamps and then of receipt. Sorting
+/// reads all messages once, keeps about 60 bytes for each, and requires topics whose messages have headers. Omits
+/// messages received outside `range`.
 class BagMessages {
  public:
   BagMessages(const std::vector<RecordingFile*>& bags, const std::vector<std::string>& topics, bool is_sorted,

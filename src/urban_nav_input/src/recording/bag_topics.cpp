@@ -94,7 +94,7 @@ std::string roleWords() {
   return words;
 }
 
-/// The topic as it is called in the bag, with or without the leading slash.
+/// Finds a topic by its name with or without the leading slash.
 std::map<std::string, std::string>::const_iterator findTopic(const std::map<std::string, std::string>& available,
                                                              const std::string& name) {
   return std::find_if(available.begin(), available.end(),
@@ -123,10 +123,9 @@ void take(const std::map<std::string, std::string>& available, const std::string
   topics.chosen[names->role] = {topic->first, topic->second};
 }
 
-constexpr int kOdd = 100;  // oddness of what is no camera's image, or a worse one
+constexpr int kOdd = 100;  // oddness of topics that are not suitable images
 
-/// How unlikely a topic is to be what `map` wants; the raw stream is preferred, rectified ones are there to be asked
-/// for.
+/// Returns a penalty for a topic as input of `map`: raw streams are preferred, rectified ones can be requested.
 int oddness(const std::string& topic, const std::string& type) {
   int value = 0;
   for (const char* word : {"disparity", "depth", "theora", "color", "colour", "ladybug", "debug", "mask", "label"})
@@ -144,8 +143,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-/// The names of the other camera: one occurrence of the word replaced, the last one first, so that the two images are
-/// of one head (.../left/cam/left with .../left/cam/right), then all of them.
+/// Returns possible names of the other camera: one occurrence of the word replaced, beginning with the last one, so
+/// that both images are of one head (.../left/cam/left with .../left/cam/right), then all of them.
 std::vector<std::string> otherNames(const std::string& text, const std::string& from, const std::string& to) {
   std::vector<std::string> names;
   for (std::size_t at = text.rfind(from); at != std::string::npos;
@@ -155,8 +154,8 @@ std::vector<std::string> otherNames(const std::string& text, const std::string& 
   return names;
 }
 
-/// Where names tell nothing: the only two streams of images there are, in the order of their names. Not a camera's raw
-/// and rectified images, and not depth beside colour.
+/// Returns the only two image streams, in the order of their names, if names give no sides. Excludes raw and rectified
+/// images of one camera, and depth with colour.
 std::pair<ChosenTopic, ChosenTopic> onlyPair(const std::map<std::string, std::string>& available) {
   std::vector<ChosenTopic> images;
   for (const auto& [topic, type] : available) {
@@ -203,7 +202,7 @@ void guessImages(const std::map<std::string, std::string>& available, BagTopics&
   if (!topics.find(Role::Right)) topics.chosen[Role::Right] = pair.second;
 }
 
-/// camera_info stands beside the images, or a level above (.../image_raw/compressed).
+/// Finds camera_info in the namespace of the images, or one level above (.../image_raw/compressed).
 void guessInfo(const std::map<std::string, std::string>& available, Role image, Role info, BagTopics& topics) {
   if (topics.find(info) || !topics.find(image)) return;
   std::string folder = topics.find(image)->name;
@@ -217,8 +216,8 @@ void guessInfo(const std::map<std::string, std::string>& available, Role image, 
   }
 }
 
-/// Where none stands beside the images: the only two that are left over, by their sides, else in the order of their
-/// names.
+/// If there is no camera_info in the namespaces of the images: uses the only two remaining ones, by their sides, else
+/// in the order of their names.
 void guessOtherInfos(const std::map<std::string, std::string>& available, BagTopics& topics) {
   if (topics.find(Role::LeftInfo) || topics.find(Role::RightInfo)) return;
   std::vector<ChosenTopic> infos;
@@ -234,7 +233,7 @@ void guessOtherInfos(const std::map<std::string, std::string>& available, BagTop
   topics.chosen[Role::RightInfo] = infos[1];
 }
 
-/// Cameras of a panoramic head, unless the user names one: the first topic of each camera whose name tells so.
+/// Finds the cameras of a panoramic head by name, unless given by the user: the first topic of each camera.
 void guessPanorama(const std::map<std::string, std::string>& available, BagTopics& topics) {
   if (topics.panorama().empty()) {
     for (std::size_t camera = 0; camera < kPanoramaCameras; ++camera)
@@ -253,7 +252,7 @@ void guessPanorama(const std::map<std::string, std::string>& available, BagTopic
     guessInfo(available, panoramaRole(camera), panoramaInfoRole(camera), topics);
 }
 
-/// What may be a stereo pair: all topics but those of a panoramic head.
+/// Returns the candidates for a stereo pair: all topics except those of a panoramic head.
 std::map<std::string, std::string> withoutPanorama(std::map<std::string, std::string> available,
                                                    const BagTopics& topics) {
   for (const std::size_t camera : topics.panorama())
@@ -272,7 +271,7 @@ std::vector<std::string> splitName(const std::string& topic) {
   return parts;
 }
 
-/// Returns whether a topic has the name of clouds that are computed from others, or from images.
+/// Returns whether a topic name is that of clouds computed from other clouds or from images.
 bool isDerivedCloud(const std::string& topic) {
   static const std::set<std::string> kWords = {
       "map",         "submap",     "clusters", "cluster",   "obstacles", "obstacle",    "objects",   "object",
@@ -283,7 +282,7 @@ bool isDerivedCloud(const std::string& topic) {
   return std::any_of(parts.begin(), parts.end(), [](const std::string& part) { return kWords.count(part) > 0; });
 }
 
-/// Further topics fill the roles that the user has left free.
+/// Assigns further topics to the roles not given by the user.
 void guessPoints(const std::map<std::string, std::string>& available, BagTopics& topics) {
   const auto isTaken = [&topics](const std::string& topic) {
     return std::any_of(topics.chosen.begin(), topics.chosen.end(),
@@ -298,7 +297,7 @@ void guessPoints(const std::map<std::string, std::string>& available, BagTopics&
   }
 }
 
-/// One line for each role; panoramas share one.
+/// Adds one line per role; panoramas share one.
 void noteTopics(const std::map<Role, ChosenTopic>& wished, BagTopics& topics) {
   const std::vector<std::size_t> panorama = topics.panorama();
   for (const auto& [role, topic] : topics.chosen) {

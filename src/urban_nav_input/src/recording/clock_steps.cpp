@@ -15,7 +15,7 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr std::size_t kProbes = 400;          // of a topic
-constexpr std::size_t kPersistence = 5;       // messages after a step that have the clock of after it
+constexpr std::size_t kPersistence = 5;       // messages after a step with the new clock
 constexpr StampNs kSameStep = 1'000'000'000;  // ns between the receipts of two topics
 
 /// Messages of one topic in the order of receipt; headers are read on demand.
@@ -41,7 +41,7 @@ class TopicStamps {
   std::map<std::size_t, StampNs> stamps_;  // read so far
 };
 
-/// Returns the usual interval between the stamps of a topic, ns: the median over the probes.
+/// Returns the median interval between the stamps of a topic over the probes, ns.
 StampNs usualInterval(TopicStamps& topic, std::size_t stride) {
   std::vector<StampNs> intervals;
   for (std::size_t i = 0; i + stride < topic.size(); i += stride)
@@ -53,7 +53,8 @@ StampNs usualInterval(TopicStamps& topic, std::size_t stride) {
   return *middle;
 }
 
-/// Whether the messages from `after` on keep their distance to the clock of before: one message out of order does not.
+/// Returns whether the messages from `after` on keep their offset to the previous clock, unlike a single message out of
+/// order.
 bool isPersistent(TopicStamps& topic, std::size_t after, StampNs low, StampNs least) {
   const std::size_t end = std::min(topic.size(), after + kPersistence);
   for (std::size_t i = after; i < end; ++i)
@@ -71,7 +72,7 @@ std::optional<ClockStep> findStepBetween(TopicStamps& topic, std::size_t before,
     (topic.delay(middle) - low < high - topic.delay(middle) ? before : after) = middle;
   }
   const StampNs back = topic.stamp(before) - topic.stamp(after);
-  // A slow link delays stamps that ascend. The clock went back by an interval more than the stamps show.
+  // A slow link delays ascending stamps. The clock stepped back by one interval more than the stamps.
   if (back <= 0 || !isPersistent(topic, after, topic.delay(before), (back + interval) / 2)) return std::nullopt;
   return ClockStep{topic.receipt(after), back + interval};
 }

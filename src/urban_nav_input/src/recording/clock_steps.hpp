@@ -9,13 +9,13 @@
 
 namespace urban_nav_input {
 
-/// Place in a recording at which a clock was set back.
+/// Time in a recording at which a clock was set back.
 struct ClockStep {
   urban_nav_core::StampNs receipt = 0;  ///< of the first message stamped by the new time
-  urban_nav_core::StampNs back = 0;     ///< ns by which its stamp lies before that of the message before it; above 0
+  urban_nav_core::StampNs back = 0;     ///< ns by which its stamp precedes that of the previous message; positive
 };
 
-/// Returns the places at which the stamps of a topic step back by more than a second while times of receipt ascend, in
+/// Returns the times at which the stamps of a topic step back by more than a second while times of receipt ascend, in
 /// the order of receipt. Steps of several topics less than a second apart are one. Reads the headers of a few hundred
 /// messages per topic, evenly distributed: of several steps between two of them at most one is found.
 std::vector<ClockStep> findClockSteps(Recording& recording, const std::vector<std::string>& topics);

@@ -22,7 +22,7 @@ std::string readHead(const std::string& path) {
   return bytes;
 }
 
-/// Returns whether the header of a database names the program that it belongs to, as that of a session store does
+/// Returns whether the header of a database has an application ID, as that of a session store
 /// (sqlite.org/fileformat.html, section 1.3).
 bool hasApplication(const std::string& head) {
   constexpr std::size_t kApplication = 68, kBytes = 4;

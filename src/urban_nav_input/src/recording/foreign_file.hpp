@@ -6,14 +6,14 @@
 
 namespace urban_nav_input {
 
-/// Kind of a file that is not a recording, and what to use in its place.
+/// Kind of a file that is not a recording, and a remedy.
 struct ForeignInput {
   std::string found;   ///< follows the path in a sentence: "is compressed by gzip"
-  std::string remedy;  ///< a command, or the input that was probably meant
+  std::string remedy;  ///< a command, or the probably intended input
 };
 
 /// Recognises stores of the suite, other databases, compressed bags, Git LFS pointers and empty files by their content.
-/// Returns nullopt for anything else. Requires a regular file that is not a recording.
+/// Returns nullopt for other files. Requires a regular file that is not a recording.
 std::optional<ForeignInput> recogniseForeignFile(const std::string& path);
 
 }  // namespace urban_nav_input

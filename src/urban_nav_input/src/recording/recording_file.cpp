@@ -15,7 +15,7 @@ RecordingFile::Decoder& RecordingFile::decoder(std::size_t connection, const Rec
   Decoder& decoder = known.emplace_back(Decoder{type.definition, false, std::nullopt});
   const Connection& source = storage_->connections()[connection];
   decoder.is_readable = source.type == type.name;
-  // Older storages hold no definitions: the type's own is the only one there is.
+  // Older storages have no definitions: uses that of the type.
   if (!decoder.is_readable || source.definition.empty()) return decoder;
   try {
     Transcoder transcoder(parseDefinition(source.type, source.definition), parseDefinition(type.name, type.definition));

@@ -26,7 +26,7 @@ class RecordingFile {
   struct Decoder {
     const char* definition;                ///< definition of the type, whose address identifies it
     bool is_readable = false;              ///< the types are the same
-    std::optional<Transcoder> transcoder;  ///< if their members are not the same
+    std::optional<Transcoder> transcoder;  ///< if their members differ
   };
   Decoder& decoder(std::size_t connection, const RecordedMessage::Type& type);
 

@@ -57,7 +57,7 @@ class McapRecording : public RecordingWriter {
         if (is_ros1) target.transcoder.emplace(definition, withoutSequence(definition));
       }
     } catch (const std::invalid_argument&) {
-      // The messages keep their bytes and their encoding.
+      // The messages are copied unchanged.
     }
     target.channel = writer_.addChannel(channel);
     return target;

@@ -8,9 +8,8 @@
 
 namespace urban_nav_input {
 
-/// Returns a sentence that names the topics of a recording that are not in `used`, with type and number of messages, in
-/// the order of their names; empty if there are none. Topics of ROS itself (/rosout, /clock, /diagnostics, /tf) are
-/// left out.
+/// Returns a sentence on the topics of a recording that are not in `used`, with type and number of messages, in the
+/// order of their names; empty if there are none. Ignores topics of ROS (/rosout, /clock, /diagnostics, /tf).
 std::string describeUnusedTopics(Recording& recording, const std::set<std::string>& used);
 
 }  // namespace urban_nav_input

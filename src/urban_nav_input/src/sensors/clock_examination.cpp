@@ -17,9 +17,9 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr std::size_t kFewMessages = 10, kMostMessages = 20'000;
-constexpr double kApart = 0.5;      // s: no driver and no network of a robot delays one topic so much more than another
-constexpr double kApartGps = 2.0;   // s: receivers state the time of the measurement, which they compute for so long
-constexpr double kSpread = 0.1;     // s: median deviation of messages that were received as they were stamped
+constexpr double kApart = 0.5;      // s: drivers and networks of a robot do not cause larger differences in delay
+constexpr double kApartGps = 2.0;   // s: receivers stamp the time of measurement, and compute the fix later
+constexpr double kSpread = 0.1;     // s, median deviation of delays if times of receipt follow the stamps
 constexpr double kDrift = 0.1;      // s over the recording
 constexpr double kShortest = 20.0;  // s, of a recording for a drift
 
@@ -33,7 +33,7 @@ double windowMedian(const std::vector<std::pair<StampNs, double>>& delays, std::
   return urban_nav_core::quantile(values, 0.5);
 }
 
-/// Returns nullopt for a topic that was not received as it was stamped.
+/// Returns nullopt for a topic whose times of receipt do not follow the stamps.
 std::optional<Delay> summarise(const std::vector<std::pair<StampNs, double>>& delays) {
   if (delays.size() < kFewMessages) return std::nullopt;
   Delay delay;

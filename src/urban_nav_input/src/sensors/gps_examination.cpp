@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int64_t kFewFixes = 20, kFewJumps = 2;
 constexpr double kFastest = 100.0;  // m/s
-constexpr double kFarthest = 50.0;  // m: a position that was lost and found again may be so far off
+constexpr double kFarthest = 50.0;  // m: possible error of a position after loss and reacquisition
 constexpr double kMetresPerDegree = 111'200.0;
 
 /// Returns the distance of two positions on the ground, m.
@@ -30,7 +30,7 @@ void GpsExamination::add(const sensor_msgs::NavSatFix& fix) {
   }
   const bool has_angles = std::abs(fix.latitude) <= 90.0 && std::abs(fix.longitude) <= 360.0,
              is_zero = fix.latitude == 0.0 && fix.longitude == 0.0;
-  if (!has_angles || is_zero) {  // not used, and no evidence of anything else
+  if (!has_angles || is_zero) {  // not used, and not checked further
     ++(is_zero ? at_zero_ : no_angles_);
     return;
   }

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kFewGrounds = 5;
 constexpr double kScattered = 4.0;  // deg, median deviation of the normals
 constexpr double kAgree = 8.0;      // deg
-constexpr double kTilted = 15.0;    // deg: no drive is on a slope of 27 % on average
+constexpr double kTilted = 15.0;    // deg: the mean slope of a drive is below 27 %
 
 double degreesBetween(const Vector3d& a, const Vector3d& b) {
   return 180.0 / M_PI * std::atan2(a.cross(b).norm(), a.dot(b));

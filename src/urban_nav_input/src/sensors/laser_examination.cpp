@@ -18,12 +18,12 @@ using urban_nav_core::ScanFault;
 namespace {
 
 constexpr std::int64_t kFewScans = 20;
-constexpr double kFewValid = 0.02;    // share of beams: outdoors a third may see nothing
+constexpr double kFewValid = 0.02;    // share of beams; outdoors a third may have no return
 constexpr double kOtherEnd = 0.02;    // share of the span
-constexpr double kLeastShare = 0.05;  // least share of the interval of scans that the beams take
+constexpr double kLeastShare = 0.05;  // least duration of the beams relative to the interval of scans
 constexpr double kDegrees = 180.0 / M_PI;
 
-constexpr double kTooLong = 1.5;      // times the interval of scans: beams that overlap those of the next scan
+constexpr double kTooLong = 1.5;      // duration relative to the interval of scans: overlap with the next scan
 constexpr double kLeastSweep = 0.02;  // s
 
 bool statesAllAngles(const sensor_msgs::LaserScan& message) {
@@ -42,7 +42,7 @@ std::int64_t checksum(const std::vector<float>& ranges) {
   return sum;
 }
 
-/// Returns the angle from the first to the last beam, by their number and by the end that is stated, rad.
+/// Returns the angle from the first to the last beam, by their number and by the stated end, rad.
 std::pair<double, double> spans(const sensor_msgs::LaserScan& message) {
   return {static_cast<double>(message.angle_increment) * (static_cast<double>(message.ranges.size()) - 1.0),
           static_cast<double>(message.angle_max) - static_cast<double>(message.angle_min)};

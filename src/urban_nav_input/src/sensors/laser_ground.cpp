@@ -24,7 +24,7 @@ constexpr std::size_t kFewHeights = 5;
 constexpr double kScatteredHeights = 0.12;            // m, median deviation of the heights by stereo
 constexpr double kTolerance = 0.25, kRelative = 0.2;  // m; of the height of the laser: kerbs, slopes, crowns of roads
 constexpr double kLeastDrop = 0.3;                    // m from the laser to the ground
-constexpr double kFoot = 0.3048, kFootTolerance = 0.15;  // m; relative: the height by stereo is not exact
+constexpr double kFoot = 0.3048, kFootTolerance = 0.15;  // m; relative error of the height by stereo
 
 /// Returns the height of the ground by stereo; nullopt if the heights are few or scattered.
 std::optional<double> heightByStereo(const std::vector<double>& heights) {

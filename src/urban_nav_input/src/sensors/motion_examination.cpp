@@ -15,16 +15,17 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr double kLeastDistance = 0.03, kLeastTurn = 0.02;  // m, rad: of an interval that counts
-constexpr double kSmallTurn = 0.005;  // rad: 12 times the error of a turn from 25 features with 1 px of noise at 500 px
-constexpr double kGross = 3.0;        // a ratio beyond it shows in small turns too
+constexpr double kLeastDistance = 0.03, kLeastTurn = 0.02;  // m, rad: smallest motion of a used interval
+constexpr double kSmallTurn =
+    0.005;                      // rad: 12 times the rotation error from 25 features with 1 px of noise at f = 500 px
+constexpr double kGross = 3.0;  // larger ratios are also significant for small rotations
 constexpr std::size_t kLeastIntervals = 5;
-constexpr double kMostSpread = 0.35;                // relative, ratios: the quartiles of a scale that is one number
-constexpr double kScaleTolerance = 0.2;             // relative: wheels slip, and tyres wear
+constexpr double kMostSpread = 0.35;                // relative spread of the quartiles for a consistent scale
+constexpr double kScaleTolerance = 0.2;             // relative, for slip and worn tyres
 constexpr StampNs kLongestGap = 300'000'000;        // ns between messages that are interpolated
 constexpr StampNs kTurnWindow = 2'000'000'000;      // ns, of intervals that compare wheels and gyroscope
 constexpr double kDegreesPerRadian = 180.0 / M_PI;  // rates in deg/s over rates in rad/s
-constexpr double kFewMetres = 2.0;                  // driven by speeds that poses do not show
+constexpr double kFewMetres = 2.0;                  // m: distance by speeds while poses do not move
 constexpr std::size_t kMostPoses = 2'000'000;
 
 double wrap(double angle) { return std::remainder(angle, 2.0 * M_PI); }
@@ -45,8 +46,8 @@ struct Ratio {
   std::size_t intervals = 0;
 };
 
-/// Returns the median of measured over reference where the reference moved at least so much; nullopt if they are few
-/// or do not agree with one number. `measured`, `reference`: of the same intervals.
+/// Returns the median ratio of measured to reference motion over intervals with sufficient reference motion; nullopt if
+/// they are few or inconsistent.
 std::optional<Ratio> findRatio(const std::vector<std::pair<double, double>>& measured_reference, double least) {
   std::vector<double> ratios;
   for (const auto& [measured, reference] : measured_reference)
@@ -58,8 +59,8 @@ std::optional<Ratio> findRatio(const std::vector<std::pair<double, double>>& mea
   return Ratio{median, ratios.size()};
 }
 
-/// Returns the ratio of turns, of small ones too where it is far above one, as that of rates in deg/s is. Far below one
-/// it may be that of a reading that never changes.
+/// Returns the ratio of rotations, using small ones too if it is far above one, as for rates in deg/s. A ratio far
+/// below one may be due to a frozen reading.
 std::optional<Ratio> findTurnRatio(const std::vector<std::pair<double, double>>& measured_reference, double least) {
   if (const auto ratio = findRatio(measured_reference, least)) return ratio;
   const auto ratio = findRatio(measured_reference, kSmallTurn / kLeastTurn * least);
@@ -68,7 +69,7 @@ std::optional<Ratio> findTurnRatio(const std::vector<std::pair<double, double>>&
 
 bool isOne(double ratio) { return std::abs(ratio - 1.0) <= kScaleTolerance; }
 
-/// Returns the usual factor next to a ratio, or the ratio rounded to three digits.
+/// Returns the common unit factor near a ratio, or the ratio rounded to three digits.
 double nameable(double ratio) {
   for (const double usual : {1000.0, 100.0, kDegreesPerRadian, 1.0 / kDegreesPerRadian, 0.01, 0.001, -1.0})
     if (std::abs(ratio / usual - 1.0) <= kScaleTolerance) return usual;

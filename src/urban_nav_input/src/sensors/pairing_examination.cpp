@@ -16,11 +16,11 @@ namespace {
 
 constexpr std::size_t kFewImages = 3;
 constexpr StampNs kConstant = 2'000'000;  // ns
-constexpr double kMostlyConstant = 0.8;   // share of images with that delay
-constexpr double kPartnerReach = 0.45;    // of an interval: beyond, the nearest image may be that of another moment
+constexpr double kMostlyConstant = 0.8;   // share of images with the constant delay
+constexpr double kPartnerReach = 0.45;    // of an interval; beyond it the nearest image may be of another time
 constexpr double kFreeRunning = 0.7;      // of an interval: delays spread over more than that are those of any moments
-constexpr double kNearZero = 0.35;        // of an interval: delays within it need no correction of their mean
-constexpr double kMargin = 1.25;          // times the largest delay seen
+constexpr double kNearZero = 0.35;        // of an interval; smaller delays need no correction of their mean
+constexpr double kMargin = 1.25;          // factor on the largest observed delay
 constexpr StampNs kMarginNs = 1'000'000;
 
 StampNs nearest(const std::vector<StampNs>& stamps, StampNs to) {
@@ -42,7 +42,7 @@ StampNs usualInterval(const std::vector<StampNs>& stamps) {
   return intervals.empty() ? 0 : middle(std::move(intervals));
 }
 
-/// Returns the delays of the right images that are nearest to a left image which is nearest to them.
+/// Returns the delays of mutually nearest right and left images.
 std::vector<StampNs> mutualDelays(const std::vector<StampNs>& left, const std::vector<StampNs>& right) {
   std::vector<StampNs> delays;
   for (const StampNs stamp : left)
@@ -54,7 +54,7 @@ std::vector<StampNs> mutualDelays(const std::vector<StampNs>& left, const std::v
 /// Returns ms rounded to 0.01.
 double toMs(StampNs ns) { return std::round(1e-4 * static_cast<double>(ns)) / 100.0; }
 
-/// Returns a tolerance that keeps delays of this size, rounded up to whole ms, below the reach of a partner.
+/// Returns a tolerance for delays of this size, rounded up to whole ms, below the partner reach.
 StampNs wideEnough(StampNs largest, double reach) {
   const double wanted = kMargin * static_cast<double>(largest) + static_cast<double>(kMarginNs);
   const double ms = std::min(std::ceil(1e-6 * wanted), std::max(1.0, std::floor(1e-6 * reach)));
@@ -92,7 +92,7 @@ std::optional<PairingVerdict> examinePairing(const std::vector<StampNs>& left, c
   for (StampNs& stamp : rights) stamp -= present.right_delay;
   std::sort(lefts.begin(), lefts.end());
   std::sort(rights.begin(), rights.end());
-  const std::vector<StampNs> delays = mutualDelays(lefts, rights);  // besides the present one
+  const std::vector<StampNs> delays = mutualDelays(lefts, rights);  // in addition to the present convention
   const auto interval = static_cast<double>(std::max(usualInterval(lefts), usualInterval(rights)));
   if (delays.size() < kFewImages || interval == 0.0) return std::nullopt;
   const StampNs median = middle(delays);

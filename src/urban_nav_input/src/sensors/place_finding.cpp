@@ -12,8 +12,8 @@ using urban_nav_core::printNumber;
 namespace {
 
 constexpr double kLongestRobot = 20.0;  // m
-constexpr double kMillimetres = 300.0;  // from that on, centimetres make a place beyond 3 m
-constexpr double kCentimetres = 40.0;   // up to that, millimetres make a place within 4 cm
+constexpr double kMillimetres = 300.0;  // above it, the position in centimetres would be beyond 3 m
+constexpr double kCentimetres = 40.0;   // below it, the position in millimetres would be within 4 cm
 
 std::string printTransform(const std::string& frame, const urban_nav_core::Pose& T_base_sensor, double scale) {
   const urban_nav_core::Vector3d t = scale * T_base_sensor.t();

@@ -16,11 +16,11 @@ using urban_nav_core::Sweep;
 
 namespace {
 
-constexpr std::size_t kFewBeams = 1000;  // of a sweep: fewer do not hold a pose in all directions
+constexpr std::size_t kFewBeams = 1000;  // per sweep; fewer do not constrain a pose in all directions
 constexpr double kFewSweeps = 0.05;      // share of sweeps: above it, a finding
-constexpr double kManyInvalid = 0.9;     // share of points: organised clouds of an open place have up to 70 % holes
-constexpr double kManyNear = 0.1;        // share of points that are measured
-constexpr double kSweepGap = 1.7;        // usual intervals without a sweep
+constexpr double kManyInvalid = 0.9;     // share of points; organised clouds outdoors have up to 70 % invalid points
+constexpr double kManyNear = 0.1;        // share of valid points
+constexpr double kSweepGap = 1.7;        // median intervals without a sweep
 constexpr double kOverlap = 0.2;         // of the duration of a sweep
 constexpr double kFewRings = 0.9;        // of the rings
 

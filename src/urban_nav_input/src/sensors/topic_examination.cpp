@@ -50,7 +50,7 @@ std::vector<Finding> topicFindings(const std::map<std::string, std::string>& ava
   if (has_scan || chosen.find(Role::Points0)) return findings;
   for (const auto& [topic, type] : available) {
     if (!isCloudType(type)) continue;
-    if (isChosen(topic)) break;  // a planar laser, with findings of its own
+    if (isChosen(topic)) break;  // a planar laser, which has separate findings
     findings.push_back(unrecognised(topic, type, Role::Points0));
     findings.back().remedy +=
         " for the sweeps of a 3D LiDAR; clouds of a planar laser become scans by rosrun "

@@ -35,10 +35,10 @@ void toEightBits(std::vector<ImagePair>& pairs) {
       if (image->depth() == CV_16U) *image = urban_nav_ros::toEightBits(*image, range.scale());
 }
 
-/// Messages of a topic in the order of their receipt, found by their stamps.
+/// Messages of a topic in the order of receipt, accessed by stamp.
 class StampedMessages {
  public:
-  /// `by_receipt`: stamps are not set, and times of receipt replace them.
+  /// `by_receipt`: use times of receipt, since stamps are not set.
   StampedMessages(Recording& recording, const std::string& topic, const ReceiptRange& part, bool by_receipt)
       : by_receipt_(by_receipt) {
     MessageSelection messages = recording.select(std::vector<std::string>{topic}, part);
@@ -76,8 +76,8 @@ class StampedMessages {
   std::vector<RecordedMessage> messages_;
 };
 
-/// Returns the indices of about `count` of `size` images, one from each part of the recording but at no fixed interval,
-/// so that nothing periodic is met at one phase.
+/// Returns the indices of about `count` of `size` images, one from each part of the recording at irregular intervals,
+/// to avoid aliasing with periodic changes.
 std::vector<std::size_t> drawIndices(std::size_t size, int count) {
   constexpr double kGoldenRatio = 0.6180339887498949;
   std::vector<std::size_t> indices;
@@ -89,7 +89,7 @@ std::vector<std::size_t> drawIndices(std::size_t size, int count) {
   return indices;
 }
 
-/// Returns at most `count` decoded pairs of a recording; fewer where partners are not found by their stamps.
+/// Returns at most `count` decoded pairs of a recording; fewer if partners are not found by their stamps.
 std::vector<ImagePair> samplePairs(Recording& recording, const StereoTopics& topics, const ReceiptRange& part,
                                    int count) {
   const StampSurvey survey = surveyStamps(recording, {topics.left, topics.right}, part);

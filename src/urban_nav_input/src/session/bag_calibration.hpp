@@ -12,21 +12,21 @@
 
 namespace urban_nav_input {
 
-/// Topics of the images of a stereo camera in a recording, and the stamps by which they belong together.
+/// Topics of the images of a stereo camera in a recording, and the convention for pairing their stamps.
 struct StereoTopics {
   std::string left, right;
   PairingConvention pairing = {};
 };
 
-/// camera_info of both cameras, and where they come from.
+/// camera_info of both cameras, and their source.
 struct StereoInfos {
   urban_nav_core::CameraInfo left, right;
   std::string where;
 };
 
-/// Returns the calibration of the images of a recording. Whether they are rectified already is judged by what they
-/// show; `named_as_rectified` decides where that is not clear. Appends a note where the name misleads. Throws
-/// UserError, as StereoCalibration.
+/// Returns the calibration of the images of a recording. Determines from the images whether they are rectified, or by
+/// `named_as_rectified` if that is not clear. Appends a note if the name is misleading. Throws the UserError of
+/// StereoCalibration.
 urban_nav_ros::StereoCalibration makeCalibration(Recording& recording, const StereoTopics& topics,
                                                  const ReceiptRange& part, bool named_as_rectified,
                                                  const StereoInfos& infos, std::vector<std::string>& notes);

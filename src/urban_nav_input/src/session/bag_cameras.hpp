@@ -9,7 +9,7 @@
 
 namespace urban_nav_input {
 
-/// Frame and size of a camera's first image; empty and 0 without images.
+/// Frame and size of the first image of a camera; empty and 0 without images.
 struct FirstImage {
   std::string frame;
   int width = 0, height = 0;
@@ -21,7 +21,7 @@ struct CameraInfos {
   urban_nav_core::CameraInfo left, right;
   std::string frame;  ///< of the left one
 };
-/// Throws UserError if one is missing, DataError if the recording `name` is too damaged for that.
+/// Throws UserError if one is missing, DataError if the recording `name` is too damaged to read it.
 CameraInfos readCameraInfos(Recording& recording, const BagTopics& topics, const std::string& name);
 
 }  // namespace urban_nav_input

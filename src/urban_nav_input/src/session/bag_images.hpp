@@ -10,10 +10,10 @@
 
 namespace urban_nav_input {
 
-/// Returns sentences on images of the roles left and right that were dropped for their stamps.
+/// Returns sentences on left and right images dropped because of their stamps.
 std::vector<std::string> droppedImages(const urban_nav_ros::StereoFeed& feed, const BagTopics& topics);
 
-/// Returns what a user should know about the order and the stamps of a recording.
+/// Returns notes for the user on the order and the stamps of a recording.
 std::vector<std::string> describeOrder(const StampSurvey& survey, bool is_sorted);
 
 }  // namespace urban_nav_input

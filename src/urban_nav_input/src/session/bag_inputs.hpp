@@ -11,20 +11,20 @@
 
 namespace urban_nav_input {
 
-/// Returns the topics of a recording by role, with their frames and numbers of messages. `lidars`: those of 3D LiDARs
-/// that are read, which take the place of their own.
+/// Returns the topics of a recording by role, with their frames and numbers of messages. `lidars`: replace the entries
+/// of 3D LiDARs that are read.
 std::vector<InputStream> describeInputs(Recording& recording, const BagTopics& topics,
                                         const std::vector<InputStream>& lidars);
 
-/// Returns the image topics of a recording, and how to choose from them, for a message.
+/// Returns the image topics of a recording with the options to choose them, for an error message.
 std::string listImageTopics(Recording& recording);
 
-/// Returns the motion sensors that `motion_input` asks for and that have a topic. Throws DataError, which names the
-/// recording, if one is asked for by its name and absent.
+/// Returns the motion sensors of `motion_input` that have a topic. Throws DataError naming the recording if an
+/// explicitly requested one is absent.
 urban_nav_core::MotionChoice chooseMotion(const BagTopics& topics, const std::string& motion_input,
                                           const std::string& recording);
 
-/// Returns the frame in the header with which a message begins; empty if it is damaged or longer than its bytes.
+/// Returns the frame in the header of a message; empty if the header is damaged or truncated.
 std::string readHeaderFrame(const RecordedMessage& message);
 
 }  // namespace urban_nav_input

@@ -22,7 +22,7 @@
 
 namespace urban_nav_input {
 
-/// Reads the messages of all sensors but the cameras by the conventions that the user states, and examines them. Not
+/// Reads the messages of all sensors except the cameras by the conventions of the user, and examines them. Not
 /// thread-safe.
 class BagSensors {
  public:
@@ -32,7 +32,7 @@ class BagSensors {
   void add(const std::vector<Finding>& findings) {
     findings_.insert(findings_.end(), findings.begin(), findings.end());
   }
-  /// Adds the laser of a role at its place.
+  /// Adds the laser of a role with its mounting.
   void addLaser(const std::string& topic, const std::string& frame, const urban_nav_core::Pose& T_base_laser);
   void placeImu(const urban_nav_core::Matrix3d& R_base_imu) {
     R_base_imu_ = R_base_imu;
@@ -45,19 +45,19 @@ class BagSensors {
   }
   /// Adds a sweep of a 3D LiDAR; its reference and the receipt of its cloud in ns.
   void addSweep(const std::string& topic, urban_nav_core::StampNs reference, urban_nav_core::StampNs receipt);
-  /// Corrects stamp and rates of a message of the IMU, and takes its specific force. Returns whether it can be used.
+  /// Corrects stamp and rates of a message of the IMU, and collects its specific force. Returns whether it can be used.
   bool add(sensor_msgs::Imu& imu, const std::string& topic, urban_nav_core::StampNs receipt);
   /// Corrects stamp and positions of a message of wheel odometry. Returns whether it can be used.
   bool add(nav_msgs::Odometry& wheels, const std::string& topic, urban_nav_core::StampNs receipt);
   void add(const sensor_msgs::NavSatFix& fix, const std::string& topic, urban_nav_core::StampNs receipt);
-  /// Returns the scan of a message of the n-th laser; nullopt where its beams cannot be placed.
+  /// Returns the scan of a message of the n-th laser; nullopt if the directions of its beams are unknown.
   std::optional<urban_nav_core::PlanarScan> read(std::size_t laser, const sensor_msgs::LaserScan& message,
                                                  urban_nav_core::StampNs receipt);
 
-  /// Returns the specific forces in the axes of base_link; none of an accelerometer that is not sound.
+  /// Returns the specific forces in the axes of base_link; empty for a faulty accelerometer.
   std::vector<urban_nav_core::SpecificForce> forces() const;
   std::vector<Finding> findings() const;
-  /// As Source::sightFindings(). `is_camera_placed`: whether the recording states where the camera is.
+  /// See Source::sightFindings(). `is_camera_placed`: whether the recording has the extrinsics of the camera.
   std::vector<Finding> sightFindings(const Sight& sight, double stereo_scale, bool is_camera_placed) const;
   /// Reads or writes the state between two messages, of the same lasers and the same IMU.
   void archive(urban_nav_core::Archive& archive);
@@ -73,7 +73,7 @@ class BagSensors {
   std::vector<urban_nav_core::SpecificForce> forces_;
   std::vector<std::string> laser_topics_;
   std::vector<std::pair<std::string, urban_nav_core::Pose>> laser_places_;  // frame, T_base_laser
-  std::array<LaserGround, 2> laser_grounds_, exchanged_grounds_;  // from the place of each, and from the other one
+  std::array<LaserGround, 2> laser_grounds_, exchanged_grounds_;  // with the mounting of each, and of the other one
   std::vector<LaserExamination> lasers_;                          // as laser_topics_
   ReadingExamination imu_, wheels_;
   GpsExamination gps_;

@@ -44,16 +44,15 @@ using urban_nav_ros::StereoFeed;
 
 namespace {
 
-constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns: offline, waiting costs nothing
+constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns; waiting is free offline
 
 constexpr const char* kBagStateName = "reader of bags";
 constexpr std::uint32_t kBagStateVersion = 7;
 constexpr urban_nav_core::StampNs kReceiptTolerance =
     25'000'000;                         // ns: images of a pair are received one after another
-constexpr std::size_t kMostSweeps = 4;  // that wait for a pair
+constexpr std::size_t kMostSweeps = 4;  // waiting for a pair
 
-/// The bags of one recording, read as one stream in the order of their receipt; the feed brings it into the order of
-/// stamps.
+/// The bags of one recording, read as one stream in the order of receipt, which the feed sorts by stamps.
 class BagSource : public Source {
  public:
   BagSource(const std::vector<std::string>& paths, const SourceOptions& options, const BagEnd* after,
@@ -214,7 +213,7 @@ class BagSource : public Source {
     info_.panorama = panorama_.cameras();
   }
 
-  /// What is read, and what becomes of it: from the topics and from where the IMU stands.
+  /// Selects the sensors to read, from the topics and the extrinsics of the IMU.
   void listen() {
     if (R_base_imu_) sensors_.placeImu(*R_base_imu_);
     wheels_.emplace(options_.wheel_noise);
@@ -253,7 +252,7 @@ class BagSource : public Source {
     if (info_.has_images) feed_->expectRange(surveyGreyRange(recording_, leading));
   }
 
-  /// Finds out in which order messages are read: by the topics of images, or of clouds without images.
+  /// Determines the order in which messages are read, by the topics of images, or of clouds without images.
   void surveyOrder(const std::vector<std::string>& leading) {
     const StampSurvey survey = surveyStamps(recording_, leading, part_);
     stamps_are_receipts_ = survey.unset || survey.constant;
@@ -272,7 +271,7 @@ class BagSource : public Source {
       if (!isCloudType(topic.type) || planar_clouds_.has(topic.name) ||
           std::count(lidars.begin(), lidars.end(), topic.name) > 0)
         used.insert(topic.name);
-    const auto leave = [&](Role role, bool is_of_use) {  // it is examined all the same
+    const auto leave = [&](Role role, bool is_of_use) {  // examined in any case
       if (const auto topic = topics_.find(role); topic && !is_of_use) used.erase(topic->name);
     };
     leave(Role::Wheels, motion_.wheels);
@@ -281,14 +280,14 @@ class BagSource : public Source {
       info_.notes.push_back(std::move(sentence));
   }
 
-  /// The messages of the next group, if there is one.
+  /// Opens the messages of the next group, if there is one.
   void readGroup() {
     messages_.reset();
     if (group_ < groups_.size())
       messages_ = std::make_unique<BagMessages>(groups_[group_].bags, names_, is_sorted_, part_);
   }
 
-  /// Nothing more comes out of the bags so far until others follow, or it is the end.
+  /// Ends a group: all pending items of the bags so far are complete.
   void endGroup() {
     sweeps_in_bag_.flush();
     takeSweeps();
@@ -323,7 +322,7 @@ class BagSource : public Source {
     for (std::size_t i = 0; i < laser_topics_.size(); ++i)
       lasers.push_back({laser_topics_[i], {info_.lasers[i].frame, info_.lasers[i].T_base_laser}});
     archive(lasers);
-    if (archive.isReading() && laser_topics_.empty()) {  // these bags do not say where they stand
+    if (archive.isReading() && laser_topics_.empty()) {  // these bags have no extrinsics
       for (const auto& [topic, place] : lasers) {
         laser_topics_.push_back(topic);
         info_.lasers.push_back({place.first, place.second});
@@ -337,8 +336,8 @@ class BagSource : public Source {
     if (feed_) archive(*feed_);
   }
 
-  /// After bags that need not exist any more: what stood only in them is taken from the state, and what stands in
-  /// both must be the same.
+  /// Continues after previous bags, which need not exist any more: restores their data from the state, and checks that
+  /// common data are equal.
   void resume(const BagEnd& after) {
     const SourceInfo here = info_;
     const BagTopics topics = topics_;
@@ -362,7 +361,7 @@ class BagSource : public Source {
     if (begun != after.bags) throw UserError(name_, "is not the last bag of those recorded at the same time", "");
     if (after.bags == 0) info_.frames = 0;  // the number in the bags before is unknown
     if (info_.has_images && !is_placed_ && !same(here.T_base_camera, info_.T_base_camera))
-      info_.notes.pop_back();  // they say the place
+      info_.notes.pop_back();  // the bags have the extrinsics
     info_.inputs = describeInputs(recording_, topics_, sweeps_in_bag_.streams());
   }
 
@@ -398,7 +397,7 @@ class BagSource : public Source {
     }
   }
 
-  /// Puts right what is known to be wrong with an image's stamp.
+  /// Corrects known errors of the stamp of an image.
   void setStamp(urban_nav_ros::Side side, const RecordedMessage& instance, std_msgs::Header& header) {
     const bool is_right = side == urban_nav_ros::Side::Right;
     if (!is_right) sensors_.addImage(instance.topic(), urban_nav_ros::toStampNs(header.stamp), instance.receipt());
@@ -441,19 +440,19 @@ class BagSource : public Source {
   std::optional<urban_nav_core::Matrix3d> R_base_imu_;
   std::vector<std::string> laser_topics_;  // in the order of info_.lasers
   BagSensors sensors_{options_, topics_};
-  std::vector<LaserInput> scans_;  // since the pair or end of a bag before
+  std::vector<LaserInput> scans_;  // since the previous pair or end of a bag
   BagPanorama panorama_;
-  std::vector<urban_nav_ros::Panorama> panoramas_;  // since the pair or end of a bag before
+  std::vector<urban_nav_ros::Panorama> panoramas_;  // since the previous pair or end of a bag
   BagSweeps sweeps_in_bag_;
-  std::vector<SweepInput> sweeps_;  // since the item or end of a bag before
+  std::vector<SweepInput> sweeps_;  // since the previous item or end of a bag
   std::optional<StereoFeed> feed_;  // with images
-  bool is_placed_ = false;          // the bags say where the camera stands
-  std::vector<std::string> names_;  // of the topics that are read
+  bool is_placed_ = false;          // the bags have the extrinsics of the camera
+  std::vector<std::string> names_;  // of the read topics
   std::vector<BagGroup> groups_;
-  std::size_t group_ = 0;  // at work
+  std::size_t group_ = 0;  // current group
   std::shared_ptr<const BagEnd> bag_end_;
   std::unique_ptr<BagMessages> messages_;  // of the group
-  bool is_sorted_ = false;                 // by stamp, else messages come as they were received
+  bool is_sorted_ = false;                 // by stamp, else in the order of receipt
   bool stamps_are_receipts_ = false;
   PairingExamination pairing_;
   bool ended_ = false;

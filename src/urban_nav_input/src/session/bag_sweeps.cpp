@@ -16,7 +16,7 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr StampNs kMostApart = 500'000'000;  // ns: sweeps of another LiDAR are not waited for any longer
+constexpr StampNs kMostApart = 500'000'000;  // ns: longest wait for sweeps of another LiDAR
 
 struct PlacedLidar {
   InputStream stream;
@@ -160,7 +160,7 @@ void BagSweeps::archive(urban_nav_core::Archive& archive) {
   std::vector<std::pair<std::string, std::string>> lidars;  // role, topic
   for (const LidarStream& stream : streams_) lidars.emplace_back(stream.describe().role, stream.topic());
   archive(lidars);
-  if (archive.isReading()) {  // these bags need not hold their mounting
+  if (archive.isReading()) {  // these bags may lack their mounting
     const std::vector<InputStream> here = streams();
     streams_.clear();
     for (const auto& [role, topic] : lidars) {

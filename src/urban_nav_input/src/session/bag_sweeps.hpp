@@ -19,9 +19,9 @@ namespace urban_nav_input {
 class BagSweeps {
  public:
   BagSweeps() = default;
-  /// Decides for each topic of 3D LiDARs how its clouds are read, from the first of them. A LiDAR whose frame has no
-  /// transform is not used; without images (`has_images`), base_link is taken to be at the only one. Throws UserError
-  /// for a field of times that the clouds do not have, DataError for a damaged recording.
+  /// Determines the convention of each topic of 3D LiDARs from its first clouds. A LiDAR without transform is not used;
+  /// without images (`has_images`), base_link is assumed at the only one. Throws UserError for a field of times that is
+  /// missing in the clouds, DataError for a damaged recording.
   BagSweeps(Recording& recording, const BagTopics& topics, const urban_nav_ros::StaticTransforms& transforms,
             const PointsOptions& points, const ReceiptRange& part, bool has_images);
 
@@ -30,7 +30,7 @@ class BagSweeps {
   std::vector<std::string> topics() const;
   /// Adds a message if it is of one of the topics; returns whether it is.
   bool add(const RecordedMessage& message);
-  /// Nothing more comes until later: all sweeps are ready.
+  /// Marks all sweeps as ready, since no more messages follow for now.
   void flush();
   /// Returns the sweeps that are ready.
   std::vector<SweepInput> take();
@@ -41,8 +41,8 @@ class BagSweeps {
   const std::vector<std::string>& notes() const { return notes_; }
   std::vector<Finding> findings() const;
 
-  /// Reads or writes the state between two messages, when all sweeps were taken. Reading: the LiDARs and how they are
-  /// read are those of the state.
+  /// Reads or writes the state between two messages, when all sweeps were taken. Reading: the LiDARs and their
+  /// conventions are those of the state.
   void archive(urban_nav_core::Archive& archive);
 
  private:

@@ -16,16 +16,16 @@ using urban_nav_ros::kLongestBaseline;
 using urban_nav_ros::kShortestBaseline;
 
 constexpr double kUsualBaseline = 0.2;  // m
-constexpr double kClear = 0.15;         // logarithm: two causes closer than that are about as likely
+constexpr double kClear = 0.15;         // difference of logarithms below which two causes are about as likely
 constexpr double kNarrowestView = 10.0, kWidestView = 150.0;  // deg, of a rectified image
 
 std::string printedValue(double value) { return urban_nav_core::formatNumber(value, 4); }
 
-/// A cause of a baseline that no vehicle has, and the scale that undoes it.
+/// A cause of an implausible baseline, and the scale that corrects it.
 struct BaselineCause {
   const char* name;
   double scale;
-  double distance;  ///< of the logarithm of the baseline it makes from that of a usual one
+  double distance;  ///< difference of the logarithms of the corrected and a usual baseline
 };
 
 /// Returns the causes that make the baseline plausible, the likeliest first.

@@ -62,7 +62,7 @@ std::optional<CloudMessages::Cloud> CloudMessages::readLivox(const RecordedMessa
     if (!cloud) return std::nullopt;
     return Cloud{std::move(cloud->frame), std::move(cloud->view)};
   } catch (const std::invalid_argument&) {
-    return std::nullopt;  // another definition, of the same name
+    return std::nullopt;  // another definition with the same name
   } catch (const std::runtime_error&) {
     return std::nullopt;  // the bytes end before the message
   }

@@ -9,7 +9,7 @@
 namespace urban_nav_input {
 
 /// Recognises stores of the suite, other databases, compressed bags, Git LFS pointers, empty files, and folders of
-/// bags by their contents. Returns nullopt for anything else.
+/// bags by their contents. Returns nullopt for other inputs.
 std::optional<ForeignInput> recogniseForeignInput(const std::string& path);
 
 }  // namespace urban_nav_input

@@ -8,8 +8,8 @@
 
 namespace urban_nav_input {
 
-/// Adds transforms that the user states, PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW (m; quaternion of length 1 within 5 %), which
-/// take precedence over all others. Throws UserError for a text of another form.
+/// Adds transforms given by the user, PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW (m; quaternion of length 1 within 5 %), which
+/// override all others. Throws UserError for other text.
 void giveTransforms(const std::vector<std::string>& given, urban_nav_ros::StaticTransforms& transforms);
 
 }  // namespace urban_nav_input

@@ -17,7 +17,7 @@ namespace {
 
 using P = InputParameters;
 
-constexpr urban_nav_core::Audience kRepair = urban_nav_core::Audience::Experts;  // doctor states it with its value
+constexpr urban_nav_core::Audience kRepair = urban_nav_core::Audience::Experts;  // suggested by doctor with its value
 
 std::vector<urban_nav_core::Row<P>> pairRows() {
   return {

@@ -12,25 +12,25 @@
 
 namespace urban_nav_input {
 
-/// The sweeps of one 3D LiDAR, and what is wrong with them. Not thread-safe.
+/// The sweeps of one 3D LiDAR, and their defects. Not thread-safe.
 class LidarStream {
  public:
-  /// `stream`: role, topic, frame and number of messages. `delay`: ns, taken from all stamps.
+  /// `stream`: role, topic, frame and number of messages. `delay`: ns, subtracted from all stamps.
   LidarStream(InputStream stream, const urban_nav_core::Pose& T_base_lidar, urban_nav_core::CloudOptions options,
               urban_nav_core::StampNs delay);
 
-  /// Sets how clouds are read.
+  /// Sets the convention for reading clouds.
   void setConvention(urban_nav_core::CloudConvention convention);
-  /// Returns the sweep of a cloud; nullopt, and counted, if it has no beam or is no later than the one before.
+  /// Returns the sweep of a cloud; nullopt, and counted, if it has no beams or is not later than the previous one.
   std::optional<SweepInput> read(const urban_nav_core::CloudView& cloud);
   /// Counts a cloud that cannot be read.
   void addFault(const std::string& fault) { examination_->addFault(fault); }
 
   const std::string& topic() const { return stream_.topic; }
   const urban_nav_core::CloudOptions& options() const { return options_; }
-  /// Returns the stream with how its clouds are read.
+  /// Returns the stream with the convention of its clouds.
   InputStream describe() const;
-  /// Returns a sentence on how its clouds are read.
+  /// Returns a sentence on the convention of its clouds.
   std::string note() const;
   std::vector<Finding> findings() const { return examination_->findings(); }
   /// Reads or writes the state between two clouds.
@@ -47,7 +47,7 @@ class LidarStream {
   urban_nav_core::StampNs last_ = 0;  // reference of the last sweep
 };
 
-/// Returns the options of a LiDAR by what the user states. `are_deskewed`: of an input of this kind.
+/// Returns the options of a LiDAR from those of the user. `are_deskewed`: default for the kind of input.
 urban_nav_core::CloudOptions toCloudOptions(const PointsOptions& points, bool are_deskewed);
 
 }  // namespace urban_nav_input

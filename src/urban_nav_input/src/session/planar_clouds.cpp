@@ -15,7 +15,7 @@ using urban_nav_core::PlanarPattern;
 
 namespace {
 
-constexpr std::size_t kMostClouds = 100;  // read of a laser that sees hardly anything
+constexpr std::size_t kMostClouds = 100;  // read at most, for a laser with few returns
 
 std::optional<PlanarPattern> findPattern(Recording& recording, const ReceiptRange& part, const std::string& topic,
                                          CloudMessages& reader) {

@@ -108,16 +108,16 @@ class ReadAhead : public Source {
     changed_.notify_all();
   }
 
-  const std::unique_ptr<Source> source_;  // used by thread_ alone from its start to ended_
+  const std::unique_ptr<Source> source_;  // used only by thread_ from its start to ended_
   const SourceInfo info_;
   const std::size_t depth_;
-  mutable std::mutex mutex_;  // guards the four below
+  mutable std::mutex mutex_;  // guards the following four members
   std::deque<SourceItem> queue_;
   std::exception_ptr error_;
   bool ended_ = false;
   bool stop_ = false;
   std::condition_variable changed_;
-  std::thread thread_;  // last: it starts when all else is there
+  std::thread thread_;  // last member: starts after the others are initialised
 };
 
 }  // namespace

@@ -21,8 +21,7 @@ using urban_nav_core::DataError;
 
 namespace {
 
-/// Returns the places at which the stamps of the stereo images of a recording step back; without images, those of the
-/// clouds.
+/// Returns the times at which the stamps of the stereo images of a recording step back; without images, of the clouds.
 std::vector<ClockStep> findStereoSteps(const std::vector<std::string>& paths, const std::vector<std::string>& wishes) {
   Recording recording(paths);
   std::vector<std::string> topics;
@@ -38,7 +37,7 @@ std::vector<ClockStep> findStereoSteps(const std::vector<std::string>& paths, co
   return findClockSteps(recording, topics);
 }
 
-/// Returns the bags of a session that hold messages of a part of it.
+/// Returns the bags of a session with messages within a part of it.
 std::vector<std::string> bagsWithin(const std::vector<BagExtent>& bags, const ReceiptRange& part) {
   std::vector<std::string> paths;
   for (const BagExtent& bag : bags)
@@ -47,7 +46,7 @@ std::vector<std::string> bagsWithin(const std::vector<BagExtent>& bags, const Re
   return paths;
 }
 
-/// Appends the session of some bags, or several where a clock was set back.
+/// Appends the session of some bags, or several if a clock was set back.
 void appendSessions(const std::vector<BagExtent>& bags, const std::vector<std::string>& topics,
                     std::vector<InputSession>& sessions) {
   std::vector<std::string> paths;
@@ -70,7 +69,7 @@ void appendSessions(const std::vector<BagExtent>& bags, const std::vector<std::s
   }
 }
 
-/// Returns the bags without copies of others; `copies`: a sentence by the path of the bag that stays.
+/// Returns the bags without copies; `copies`: a sentence by the path of the kept bag.
 std::vector<BagExtent> takeOnce(const std::vector<BagExtent>& bags, std::map<std::string, std::string>& copies) {
   std::vector<BagExtent> kept;
   for (const BagExtent& bag : bags) {

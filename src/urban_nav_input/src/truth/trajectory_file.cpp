@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kKittiColumns = 12;
 
-/// `is_stated`: the format or its header states the unit of the stamps.
+/// Adds notes on repairs. `is_stated`: the unit of the stamps is given by the format or its header.
 void note(const urban_nav_core::TumRepairs& repairs, bool is_stated, TrajectoryFile& file) {
   if (repairs.repeated > 0)
     file.notes.push_back(file.path + ": " + std::to_string(repairs.repeated) +

@@ -39,7 +39,7 @@ void noteLeftOut(TrajectoryFile& file, std::int64_t count, const std::string& wh
                          ", and " + (count == 1 ? "is" : "are") + " left out");
 }
 
-/// Poses of the left camera relative to its first, line by line, as poses of base_link.
+/// Converts poses of the left camera relative to its first pose to poses of base_link.
 Trajectory baseOfCamera(const std::vector<Pose>& poses, const std::vector<StampNs>& stamps, const Pose& T_base_camera,
                         const std::string& path) {
   if (poses.size() != stamps.size())
@@ -51,7 +51,7 @@ Trajectory baseOfCamera(const std::vector<Pose>& poses, const std::vector<StampN
   return trajectory;
 }
 
-/// Returns the frames that poses.txt has lines for: those of the images, without images those of the sweeps.
+/// Returns the frames of the lines of poses.txt: those of the images, or of the sweeps without images.
 KittiFrames listFramesWithTruth(const std::string& folder, double rate) {
   if (const std::optional<KittiLayout> layout = findKittiLayout(folder)) return listKittiFrames(*layout, rate);
   KittiFrames frames;

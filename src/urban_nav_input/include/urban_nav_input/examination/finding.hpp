@@ -6,7 +6,7 @@
 
 namespace urban_nav_input {
 
-/// What a defect of an input concerns.
+/// Kind of a defect of an input.
 enum class FindingKind {
   Stamps,
   Pairs,
@@ -34,17 +34,17 @@ const char* toString(FindingKind kind);
 /// A defect of an input.
 struct Finding {
   FindingKind kind = FindingKind::Pairs;
-  std::string text;       ///< what is wrong, with its numbers
-  std::string remedy;     ///< what repairs it: an option, a command, or what to change on the robot
-  bool unusable = false;  ///< nothing can be mapped while this is so
-  /// Arguments of `map` that repair it on this recording; empty: only a new recording or a number of the user does.
+  std::string text;       ///< description with figures
+  std::string remedy;     ///< an option, a command, or a change on the robot
+  bool unusable = false;  ///< the session cannot be mapped with this defect
+  /// Arguments of `map` that repair this recording; empty if a new recording or a number of the user is needed.
   std::vector<std::string> options = {};
 };
 
-/// Returns the findings in what the reader of an input states in sentences (SourceInfo::notes, Source::closingFaults).
-/// Sentences that state no defect give none.
+/// Returns the findings in sentences of the reader of an input (SourceInfo::notes, Source::closingFaults). Sentences
+/// without a defect give none.
 std::vector<Finding> readerFindings(const std::vector<std::string>& sentences);
-/// Returns the finding in an error that prevents an input from being opened or read.
+/// Returns the finding for an error on opening or reading an input.
 Finding errorFinding(const std::string& error, const std::string& allowed);
 
 }  // namespace urban_nav_input

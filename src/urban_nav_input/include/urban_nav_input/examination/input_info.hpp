@@ -17,20 +17,20 @@ struct StreamInfo {
   urban_nav_core::StampNs first = 0, last = 0;
   double rate_hz = 0.0;        ///< mean; 0 for fewer than two messages
   double longest_gap_s = 0.0;  ///< between neighbours
-  std::string undecoded;       ///< why messages of a recording cannot be decoded; empty: they can be
-  std::int64_t backward = 0;   ///< stamps of a folder that are not later than the one before
+  std::string undecoded;       ///< reason why messages of a recording cannot be decoded; empty: they can
+  std::int64_t backward = 0;   ///< stamps of a folder that are not later than the previous one
 };
 
 struct InputInfo {
   std::string name, kind;
   std::vector<StreamInfo> streams;
   std::optional<double> distance_m;  ///< along wheel odometry or truth
-  std::string distance_of;           ///< where that comes from
+  std::string distance_of;           ///< source of the distance
   std::vector<std::string> notes;
   std::vector<std::string> warnings;  ///< damage of a recording, with its place
 };
 
-/// What is in a bag or folder. DataError where it cannot be read.
+/// Returns the contents of a bag or folder. Throws DataError if it cannot be read.
 InputInfo lookInto(const std::string& path);
 
 }  // namespace urban_nav_input

@@ -11,13 +11,13 @@
 
 namespace urban_nav_input {
 
-/// Judges the images of some stereo pairs by what they show: rows of matching points (rectification), the sign of their
-/// disparities (exchanged cameras), whether left images match their partners better than the partners of their
-/// neighbours (pairing), and grey values (depth). Matches ORB features over the whole image, without the assumption
-/// that rows agree. Deterministic. Not thread-safe.
+/// Checks the images of some stereo pairs: rows of matching points (rectification), the sign of their disparities
+/// (exchanged cameras), whether left images match their partners better than those of neighbouring pairs (pairing), and
+/// grey values (depth). Matches ORB features over the whole image, without the assumption that rows agree.
+/// Deterministic. Not thread-safe.
 class PairCheck {
  public:
-  /// Adds a pair and the right images of the pairs before and after it, which may be empty.
+  /// Adds a pair and the right images of the previous and the next pair, which may be empty.
   void add(const urban_nav_core::ImageView& left, const urban_nav_core::ImageView& right,
            const urban_nav_core::ImageView& right_before, const urban_nav_core::ImageView& right_after);
   /// `info`: of the recording, for the options. `interval`: ns between pairs.
@@ -27,7 +27,7 @@ class PairCheck {
 
  private:
   struct Match {
-    double u, v;  ///< px from the middle of the left image
+    double u, v;  ///< px from the centre of the left image
     double du;    ///< px, left minus right: the disparity
     double dv;    ///< px, right minus left
   };

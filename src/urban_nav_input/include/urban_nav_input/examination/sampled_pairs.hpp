@@ -12,24 +12,23 @@
 
 namespace urban_nav_input {
 
-/// Examines some of a recording's stereo pairs, evenly distributed, by what their images show, and all of them by
-/// whether images repeat the one before. Not thread-safe.
+/// Examines the images of some evenly distributed stereo pairs of a recording, and all pairs for repeated images. Not
+/// thread-safe.
 class SampledPairs {
  public:
-  /// `info`: of the recording. About `samples` pairs are judged, at least `least_step` apart.
+  /// `info`: of the recording. Examines about `samples` pairs, at least `least_step` apart.
   SampledPairs(SourceInfo info, std::int64_t samples, std::int64_t least_step);
 
-  /// Adds the next pair. Its images stay alive until the pair after the next one.
+  /// Adds the next pair. Its images must stay valid until the pair after the next one.
   void add(const urban_nav_core::StereoPairWithMotion& pair);
   std::vector<Finding> findings() const;
-  /// Returns what these pairs show of motion and ground.
+  /// Returns motion and ground measured from these pairs.
   const Sight& sight() const { return sight_.sight(); }
 
  private:
   SourceInfo info_;
   std::int64_t step_, most_, count_ = 0;
-  std::deque<urban_nav_core::StereoPairWithMotion>
-      last_;  // up to three: neighbours tell whether partners belong together
+  std::deque<urban_nav_core::StereoPairWithMotion> last_;  // up to three, to compare partners with their neighbours
   PairCheck images_;
   RepeatedImages repeated_;
   SightMeter sight_;

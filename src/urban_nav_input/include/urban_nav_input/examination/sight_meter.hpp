@@ -18,8 +18,8 @@ class SightMeter {
       : camera_(camera), T_base_camera_(T_base_camera) {
     sight_.camera = T_base_camera.t();
   }
-  /// Adds what a pair and a later one show: a motion if enough points of the first are found in the left image of the
-  /// second, and the ground if most points below the camera lie on one plane.
+  /// Adds the measurements of a pair and a later one: a motion if enough points of the first are found in the left
+  /// image of the second, and the ground if most points below the camera are on one plane.
   void add(const urban_nav_core::StereoPair& before, const urban_nav_core::StereoPair& after);
   const Sight& sight() const { return sight_; }
 
@@ -29,9 +29,9 @@ class SightMeter {
   Sight sight_;
 };
 
-/// Returns the plane that holds most of the points which lie below the camera; nullopt if
-/// they are few or do not lie on one plane, or if it is inclined by more than 60 deg to the axes of the base. Points in
-/// m, relative to the camera in the axes of base_link.
+/// Returns the plane of most of the points below the camera; nullopt if there are few or they are not on one plane, or
+/// if it is inclined by more than 60 deg to the axes of the base. Points in m, relative to the camera in the axes of
+/// base_link.
 std::optional<SeenGround> findGround(const std::vector<urban_nav_core::Vector3d>& points);
 
 }  // namespace urban_nav_input

@@ -14,7 +14,7 @@ namespace urban_nav_input {
 
 /// One row of a MOOS asynchronous log. The value may have spanned several lines; it has no blanks at its ends.
 struct AlogRow {
-  urban_nav_core::StampNs logged = 0;  ///< when the logger got it, since LOGSTART
+  urban_nav_core::StampNs logged = 0;  ///< time of logging, ns since LOGSTART
   std::string variable, source, value;
   int line = 0;  ///< of its beginning, from 1
 };
@@ -22,14 +22,14 @@ struct AlogRow {
 /// Reads a log row by row, in the order of the file (which is not that of time), in bounded memory.
 class AlogReader {
  public:
-  /// Throws UserError where the file cannot be opened.
+  /// Throws UserError if the file cannot be opened.
   explicit AlogReader(std::string path);
 
-  /// Unix time that AlogRow::logged counts from; empty until a LOGSTART comment has been read.
+  /// Returns the Unix time of AlogRow::logged = 0; nullopt until a LOGSTART comment has been read.
   std::optional<urban_nav_core::StampNs> logStart() const { return log_start_; }
 
-  /// The next row; empty at the end. Throws UserError with file and line for text before the first row that is no
-  /// comment, and for a value longer than 16 MB.
+  /// Returns the next row; nullopt at the end. Throws UserError with file and line for text before the first row that
+  /// is not a comment, and for a value longer than 16 MB.
   std::optional<AlogRow> next();
 
  private:
@@ -44,16 +44,16 @@ class AlogReader {
   std::optional<urban_nav_core::StampNs> log_start_;
 };
 
-/// The `key=value,key=value` of a value, with arrays `[n]{...}` and `[rxc]{...}` that may hold commas. Looks into the
-/// row's text, which must live on.
+/// Parses the `key=value,key=value` of a value, with arrays `[n]{...}` and `[rxc]{...}` that may contain commas. Refers
+/// to the text of the row, which must outlive it.
 class AlogFields {
  public:
   /// `where` begins the errors: "file.alog:212".
   AlogFields(std::string_view value, std::string where);
 
   bool has(std::string_view key) const;
-  /// All throw UserError with file, line and key: where the key is missing, the number is none or not finite, or the
-  /// array has not as many numbers as its own brackets say, or as `count` says if that is not 0.
+  /// All throw UserError with file, line and key for a missing key, a number that is invalid or not finite, or an array
+  /// whose size differs from that in its brackets, or from `count` if not 0.
   std::string_view text(std::string_view key) const;
   double number(std::string_view key) const;
   urban_nav_core::StampNs stamp(std::string_view key) const;

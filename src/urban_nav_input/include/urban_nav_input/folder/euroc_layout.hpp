@@ -27,11 +27,11 @@ struct EurocImu {
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::Vector3d rate = urban_nav_core::Vector3d::Zero();          ///< rad/s, in the body frame
   urban_nav_core::Vector3d acceleration = urban_nav_core::Vector3d::Zero();  ///< m/s^2
-  double rate_sigma = 0.0;  ///< rad/s, of one rate as sensor.yaml states; 0: it does not
+  double rate_sigma = 0.0;  ///< rad/s, of one rate by sensor.yaml; 0: not stated
 };
 
-/// The two cameras of a EuRoC folder, and the rectified pair made of them. base_link is at the rectified left camera,
-/// axes turned to REP-103.
+/// The two cameras of a EuRoC folder, and the rectified pair. base_link is at the rectified left camera, with REP-103
+/// axes.
 struct EurocRig {
   urban_nav_core::RawCamera left, right;
   urban_nav_core::StereoRectification rectification;
@@ -40,25 +40,25 @@ struct EurocRig {
   urban_nav_core::Pose T_base_body;    ///< EuRoC's body: the IMU
 };
 
-/// The folder that holds cam0 and cam1: `path` itself or its mav0.
+/// Returns the folder with cam0 and cam1: `path` or its mav0.
 std::string eurocFolder(const std::string& path);
 
-/// All read data.csv and sensor.yaml; UserError with file and line where they are damaged. `notes`: what was put right
-/// in the lists of images, for the user.
+/// All read data.csv and sensor.yaml, and throw UserError with file and line for damaged ones. `notes`: corrections of
+/// the lists of images, for the user.
 std::vector<EurocPair> readEurocPairs(const std::string& mav0, std::vector<std::string>* notes = nullptr,
                                       const PairingConvention& pairing = {});
 /// Returns the depth of 16-bit images, 8...16, from the first ones of both cameras; 8 for 8-bit images.
 urban_nav_ros::GreyScale eurocScale(const std::vector<EurocPair>& pairs);
 EurocRig readEurocRig(const std::string& mav0);
-/// Empty where the folder has none. Their noise is that of imu0/sensor.yaml, if it can be read.
+/// Returns the IMU readings; empty without imu0. Their noise is that of imu0/sensor.yaml, if it can be read.
 std::vector<EurocImu> readEurocImu(const std::string& mav0);
-/// As a message in the frame imu_link.
+/// Returns the reading as a message in the frame imu_link.
 sensor_msgs::Imu toImuMessage(const EurocImu& row);
-/// base_link in the frame of the truth, from state_groundtruth_estimate0; empty where the folder has none.
+/// Returns base_link in the frame of the truth, from state_groundtruth_estimate0; nullopt without it.
 std::optional<urban_nav_core::Trajectory> readEurocTruth(const std::string& mav0,
                                                          const urban_nav_core::Pose& T_base_body);
 
-/// A raw image, rectified; or a fault that names it.
+/// Reads and rectifies a raw image; else returns a fault that names it.
 urban_nav_ros::GreyImage readRectified(const std::string& path, const urban_nav_core::RectifyMap& map,
                                        const urban_nav_ros::GreyScale& scale);
 

@@ -14,8 +14,8 @@
 
 namespace urban_nav_input {
 
-/// Where a KITTI folder has what: `image_0` and `image_1` (odometry), `image_00` and `image_01` (raw), each with or
-/// without `data/` inside, or `data_rect/` (KITTI-360); `image_2`, `image_3` (colour) where these are all there is.
+/// Layout of a KITTI folder: `image_0` and `image_1` (odometry), `image_00` and `image_01` (raw), each with or
+/// without `data/` inside, or `data_rect/` (KITTI-360); `image_2`, `image_3` (colour) if there are no others.
 struct KittiLayout {
   std::string folder;
   std::string left, right;  ///< folders of images
@@ -23,23 +23,22 @@ struct KittiLayout {
 };
 std::optional<KittiLayout> findKittiLayout(const std::string& folder);
 
-/// Frame number (the digits of the file name) to file, for one folder of images.
+/// Returns the files of a folder of images by frame number (the digits of the file name).
 std::map<std::int64_t, std::string> listFrames(const std::string& folder);
 
-/// The rectified pair out of calib.txt, or calib_cam_to_cam.txt in the folder or above it, or perspective.txt in the
-/// folder or where KITTI-360 has it (../../calibration); `width` x `height` are the
-/// images'. UserError naming file and line where a row is missing or wrong.
+/// Reads the rectified pair from calib.txt, or calib_cam_to_cam.txt in the folder or above it, or perspective.txt in
+/// the folder or in ../../calibration (KITTI-360); `width` x `height`: of the images. Throws UserError naming file and
+/// line for a missing or invalid row.
 urban_nav_core::StereoCamera readKittiCamera(const KittiLayout& layout, int width, int height);
 
-/// Stamps of frames 0, 1 ... out of times.txt (s) or KITTI raw's timestamps.txt (date and time); empty if there is
-/// neither.
+/// Stamps of frames 0, 1 ... from times.txt (s) or timestamps.txt of KITTI raw (date and time); empty without either.
 struct KittiTimes {
   std::string path;
   std::vector<urban_nav_core::StampNs> stamps;
 };
 KittiTimes readKittiTimes(const KittiLayout& layout);
 
-/// Throws UserError if far fewer files than numbers are in a folder: they are named by another scheme.
+/// Throws UserError if a folder has far fewer files than numbers, which indicates another naming scheme.
 void requireNumberedFrames(const std::string& folder, std::pair<std::int64_t, std::int64_t> numbers, std::size_t count);
 
 /// Returns a stamp for each of the numbers from the first to the last: from times.txt by number (by place where the

@@ -29,8 +29,8 @@ std::optional<KittiSweepLayout> findKittiSweeps(const std::string& folder);
 std::map<std::int64_t, std::string> listKittiSweeps(const KittiSweepLayout& layout);
 
 /// Returns T_camera_lidar of the rectified left camera: the row `Tr` of calib.txt, else calib_velo_to_cam.txt with the
-/// rectification of calib_cam_to_cam.txt, in the folder or above it; nullopt without any. Throws UserError for rows
-/// that are wrong.
+/// rectification of calib_cam_to_cam.txt, in the folder or above it; nullopt without either. Throws UserError for
+/// invalid rows.
 std::optional<urban_nav_core::Pose> readKittiLidar(const std::string& folder);
 
 /// The points of a file: little-endian float32 x, y, z (m; at the LiDAR, x forward, y left, z up) and reflectance,
@@ -39,12 +39,12 @@ std::optional<urban_nav_core::Pose> readKittiLidar(const std::string& folder);
 /// clockwise from the back, once in 0.1 s.
 class KittiCloud {
  public:
-  /// Throws nothing: fault() states what cannot be read.
+  /// Does not throw: fault() states what cannot be read.
   KittiCloud(const std::string& path, urban_nav_core::StampNs stamp);
 
   /// Returns the view of this object, which outlives it.
   urban_nav_core::CloudView view() const;
-  /// Returns what is wrong with the file; empty if nothing is.
+  /// Returns the defect of the file; empty without one.
   const std::string& fault() const { return fault_; }
 
  private:

@@ -9,8 +9,8 @@
 
 namespace urban_nav_input {
 
-/// What lies in a folder of the New College data set, at any depth up to three; the parts were downloaded one by one,
-/// so each may be absent.
+/// Files of the New College data set in a folder, at a depth of at most three. Its parts are downloaded separately, so
+/// each may be absent.
 struct NewCollegeFiles {
   struct Image {
     urban_nav_core::StampNs stamp = 0;
@@ -26,12 +26,12 @@ struct NewCollegeFiles {
   std::vector<Pair> stereo;     ///< StereoImage__TIME-left.pnm and its partner, in order of time
 };
 
-/// `source`: a folder, or an .alog file whose folder is looked through. UserError where there is none of it, or more
-/// than one log.
+/// Finds the files. `source`: a folder, or an .alog file in the folder to search. Throws UserError without files, or
+/// for more than one log.
 NewCollegeFiles findNewCollege(const std::string& source);
 
-/// The last number before "-left" or "-right" (or "-K") of a file name, as a time:
-/// "StereoImage__1225719884.662058-left.pnm". Empty if there is none.
+/// Returns the last number before "-left" or "-right" (or "-K") of a file name as a time:
+/// "StereoImage__1225719884.662058-left.pnm". nullopt without one.
 std::optional<urban_nav_core::StampNs> stampOfName(const std::string& name);
 
 }  // namespace urban_nav_input

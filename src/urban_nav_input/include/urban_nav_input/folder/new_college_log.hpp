@@ -14,17 +14,17 @@
 
 namespace urban_nav_input {
 
-/// What the New College log holds, in REP-103 axes and SI units (Smith, Baldwin, Churchill, Paul, Newman, IJRR 2009;
-/// the conventions were read off the log itself). Stamps are the values' own `time=`, Unix time.
+/// Content of the New College log, in REP-103 axes and SI units (Smith, Baldwin, Churchill, Paul, Newman, IJRR 2009;
+/// conventions determined from the log). Stamps are the `time=` of the values, Unix time.
 enum class Side { Left, Right };
 
-/// A turn of one of the two vertical lasers. Angles are those of the frame laser_left or laser_right: x along beam 90
+/// A scan of one of the two vertical lasers. Angles are those of the frame laser_left or laser_right: x along beam 90
 /// deg, z forward.
 struct NewCollegeScan {
   urban_nav_core::StampNs stamp = 0;
   Side side = Side::Left;
-  std::int64_t id = 0;              ///< counts on by one per turn: a gap is a lost scan
-  urban_nav_core::PlanarScan scan;  ///< ranges <= 0 of the log are 0 here; reflectances are the intensities
+  std::int64_t id = 0;              ///< incremented per scan: a gap is a lost scan
+  urban_nav_core::PlanarScan scan;  ///< ranges <= 0 of the log become 0; intensities are the reflectances
 };
 
 /// Wheel odometry with the tilt of the vehicle.
@@ -33,11 +33,11 @@ struct NewCollegeOdometry {
   urban_nav_core::Pose
       T_odom_base;          ///< x, y, yaw from ODOMETRY_POSE; roll and pitch from the RAW row of the same stamp
   double speed = 0.0;       ///< m/s, forward
-  double yaw_rate = 0.0;    ///< rad/s, from neighbouring headings: the log's own is spoilt
+  double yaw_rate = 0.0;    ///< rad/s, from neighbouring headings, since that of the log is invalid
   double pitch_rate = 0.0;  ///< rad/s
 };
 
-/// The pictures of one panorama: base names, by camera.
+/// The images of one panorama: base names, by camera.
 struct NewCollegePanorama {
   urban_nav_core::StampNs stamp = 0;
   std::vector<std::string> files;
@@ -52,19 +52,18 @@ struct NewCollegeCounts {
   std::int64_t odometry = 0;
   std::int64_t odometry_without_tilt = 0;  ///< no RAW row of the same stamp: roll and pitch are 0
   std::int64_t panoramas = 0;
-  std::int64_t out_of_order = 0;               ///< came more than two seconds late: left out
+  std::int64_t out_of_order = 0;               ///< more than two seconds late: left out
   std::map<std::string, std::int64_t> unused;  ///< rows of other variables, by name
 };
 
 /// Reads a log in order of stamps, through a window of two seconds, in bounded memory.
 class NewCollegeLog {
  public:
-  /// Throws UserError where the file cannot be opened.
+  /// Throws UserError if the file cannot be opened.
   explicit NewCollegeLog(const std::string& path);
 
-  /// The next event; empty at the end. Throws UserError with file and line for a row of a known variable that is
-  /// damaged, also where the file was cut off within one. Rows of other variables are
-  /// counted.
+  /// Returns the next event; nullopt at the end. Throws UserError with file and line for a damaged or truncated row of
+  /// a known variable. Counts rows of other variables.
   std::optional<NewCollegeEvent> next();
   const NewCollegeCounts& counts() const { return counts_; }
 
@@ -81,7 +80,7 @@ class NewCollegeLog {
   NewCollegeEvent release(Waiting::iterator at);
   void complete(NewCollegeOdometry& odometry);
   double yawRate(const NewCollegeOdometry& odometry) const;
-  /// The value's own time, which must be near the one at which it was logged.
+  /// Returns the time of the value, which must be near the time of logging.
   urban_nav_core::StampNs computeTime(const AlogRow& row, const AlogFields& fields) const;
 
   std::string path_;

@@ -6,12 +6,12 @@
 
 namespace urban_nav_input {
 
-/// The Bumblebee2 of the New College data set: the data set's "Details" page, as four readers quote it, for the
-/// rectified images of 512x384.
+/// Returns the Bumblebee2 of the New College data set for the rectified images of 512x384, from the "Details" page of
+/// the data set as quoted by four public readers.
 urban_nav_core::StereoCamera newCollegeCamera();
 
-/// Where things are on base_link. The lasers (frames with x along beam 90 deg and z forward): as the data set's readers
-/// have them, the height from the ground that they see. The left camera: not known; on the mast, as launch/ has it.
+/// Return extrinsics in base_link. Lasers (frames with x along beam 90 deg and z forward): as in public readers of the
+/// data set, the height from the ground in their scans. Left camera: unknown; on the mast, as in launch/.
 urban_nav_core::Pose newCollegeLeftLaser();
 urban_nav_core::Pose newCollegeRightLaser();
 urban_nav_core::Pose newCollegeLeftCamera();

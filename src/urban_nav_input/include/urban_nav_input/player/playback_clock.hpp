@@ -7,8 +7,8 @@
 
 namespace urban_nav_input {
 
-/// Time of a recording while it is played: runs `rate` times as fast as the clock of the host, and does not change in a
-/// pause. Not thread-safe.
+/// Playback time of a recording: runs `rate` times as fast as the clock of the host, and stops in a pause. Not
+/// thread-safe.
 class PlaybackClock {
  public:
   using HostTime = std::chrono::steady_clock::time_point;
@@ -17,11 +17,11 @@ class PlaybackClock {
   PlaybackClock(urban_nav_core::StampNs begin, double rate, HostTime now, bool is_paused);
 
   bool isPaused() const { return is_paused_; }
-  /// Begins or ends a pause. Does nothing if there is one already, or none.
+  /// Begins or ends a pause. No effect if already in this state.
   void pause(bool is_paused, HostTime now);
   /// Returns the time of the recording, ns.
   urban_nav_core::StampNs at(HostTime now) const;
-  /// Returns when the host reaches a time of the recording; HostTime::max() in a pause.
+  /// Returns the host time of a time of the recording; HostTime::max() in a pause.
   HostTime due(urban_nav_core::StampNs time) const;
 
  private:

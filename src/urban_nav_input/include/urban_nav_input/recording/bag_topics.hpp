@@ -9,8 +9,8 @@
 
 namespace urban_nav_input {
 
-/// What a topic is to `map`. The words are those of --topic ROLE:=NAME; the topics of docs/architecture.md stand for
-/// their roles too (stereo/left/image_raw:=/cam0/image_raw).
+/// Role of a topic for `map`, as in --topic ROLE:=NAME; the topics of docs/architecture.md are also accepted as roles
+/// (stereo/left/image_raw:=/cam0/image_raw).
 enum class Role {
   Left,
   Right,
@@ -53,7 +53,7 @@ struct ChosenTopic {
   std::string type;  ///< "sensor_msgs/Image"
 };
 
-/// Topics by role, with what to tell the user about them.
+/// Topics by role, with notes for the user.
 struct BagTopics {
   std::map<Role, ChosenTopic> chosen;
   std::vector<std::string> notes;
@@ -62,20 +62,20 @@ struct BagTopics {
   std::vector<std::size_t> panorama() const;
 };
 
-/// `available`: name and type of every topic of a bag. What `wishes` (ROLE:=NAME) do not say is guessed from types and
-/// names: a stereo pair are two image topics whose names differ in "left" and "right" (or cam0 and cam1, image_0 and
-/// image_1, infra1 and infra2), else the only two there are, in the order of their names. A panoramic head has at least
-/// two image topics whose names contain "ladybug" or "panorama", and "camera" or "cam" with a number. 3D LiDARs are the
-/// topics of clouds whose names are not those of computed clouds (a map, clusters, depth images), in the
-/// order of their names. UserError for a wish that is no role, or a topic that is not there or of another type. Roles
-/// for which nothing fits are absent.
+/// Chooses topics for the roles. `available`: name and type of every topic of a bag. Roles that are not in `wishes`
+/// (ROLE:=NAME) are guessed from types and names: a stereo pair is two image topics whose names differ in "left" and
+/// "right" (or cam0 and cam1, image_0 and image_1, infra1 and infra2), else the only two image topics, in the order of
+/// their names. A panoramic head has at least two image topics whose names contain "ladybug" or "panorama", and
+/// "camera" or "cam" with a number. 3D LiDARs are the topics of clouds whose names are not those of computed clouds (a
+/// map, clusters, depth images), in the order of their names. Throws UserError for an unknown role in `wishes`, or a
+/// topic that is missing or of another type. Roles without a suitable topic are absent.
 BagTopics chooseTopics(const std::map<std::string, std::string>& available, const std::vector<std::string>& wishes);
 
 bool isImageType(const std::string& type);
 /// Returns whether messages of a type hold sweeps of 3D LiDARs: PointCloud2, or the CustomMsg of Livox.
 bool isCloudType(const std::string& type);
 bool isLivoxType(const std::string& type);
-/// image_rect and its relatives are rectified already.
+/// Returns whether the topic name is that of rectified images (image_rect and variants).
 bool isRectifiedName(const std::string& topic);
 
 }  // namespace urban_nav_input

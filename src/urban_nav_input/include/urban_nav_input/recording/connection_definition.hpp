@@ -6,8 +6,8 @@
 
 namespace urban_nav_input {
 
-/// Returns the definition of the messages of a connection; that of the suite for standard types where the recording
-/// holds none. Throws std::invalid_argument if it is missing or not understood.
+/// Returns the definition of the messages of a connection; for standard types without one in the recording, that of the
+/// suite. Throws std::invalid_argument if it is missing or unsupported.
 MessageDefinition findDefinition(const Connection& connection);
 
 /// Returns a definition in which the members of standard types have the names of ROS 1 ("K", "header"), which differ

@@ -12,7 +12,7 @@
 
 namespace urban_nav_input {
 
-/// Topic of an MCAP file that is written.
+/// Topic of an MCAP file to write.
 struct McapChannel {
   std::string topic;
   std::string type;             ///< "sensor_msgs/msg/Image"
@@ -23,7 +23,7 @@ struct McapChannel {
 };
 
 /// Writes an MCAP file of profile ros2: chunks compressed by zstd, with index, statistics and all checksums. The file
-/// appears when it is complete. The same messages give the same bytes. Throws UserError naming the file where it cannot
+/// appears when it is complete. The same messages give the same bytes. Throws UserError naming the file if it cannot
 /// be written. Not thread-safe.
 class McapWriter {
  public:
@@ -36,9 +36,9 @@ class McapWriter {
   std::uint16_t addChannel(const McapChannel& channel);
   /// Appends a message. `receipt`: ns.
   void write(std::uint16_t channel, urban_nav_core::StampNs receipt, ByteView message);
-  /// Returns the size of the file so far, bytes; that of the chunk that is being filled counts as it is.
+  /// Returns the size of the file so far, bytes, with the current chunk uncompressed.
   std::uint64_t size() const;
-  /// Completes the file, under its name.
+  /// Completes the file and renames it to its final name.
   void commit();
 
  private:

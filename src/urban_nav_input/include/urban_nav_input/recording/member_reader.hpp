@@ -12,9 +12,9 @@
 
 namespace urban_nav_input {
 
-/// Takes the members of an encoded message one after another, as a MessageDefinition lists them. Nothing is copied:
-/// views lie in the bytes of the message. Every function throws std::runtime_error where the bytes end before the
-/// member. Not thread-safe.
+/// Reads the members of an encoded message one after another, in the order of a MessageDefinition. Does not copy: views
+/// refer to the bytes of the message. All functions throw std::runtime_error if the bytes end before the member. Not
+/// thread-safe.
 class MemberReader {
  public:
   /// `bytes` outlive this object; those of CDR begin with the encapsulation header.
@@ -30,7 +30,7 @@ class MemberReader {
   /// Returns whether the numbers are big endian.
   bool isSwapped() const { return is_swapped_; }
 
-  /// Begins a message, also one within another: ROS 2 gives a message without members one of a byte.
+  /// Begins a message, also a nested one: in ROS 2, a message without members has one of a byte.
   void enter(const MessageLayout& layout) {
     if (is_cdr_ && layout.fields.empty()) take(1);
   }

@@ -11,7 +11,7 @@ namespace urban_nav_input {
 /// Place of a message of a connection.
 struct MessageEntry {
   urban_nav_core::StampNs receipt = 0;  ///< time at which the recorder received it, ns
-  std::uint64_t place = 0;              ///< in its file, ascending; what it counts is known to the storage alone
+  std::uint64_t place = 0;              ///< in its file, ascending; its meaning is internal to the storage
 };
 
 inline bool operator<(const MessageEntry& a, const MessageEntry& b) {

@@ -13,12 +13,12 @@
 namespace urban_nav_input {
 
 /// Messages of some files of a recording in the order of receipt; those of equal receipt in the order of the names of
-/// their topics, then of the files, then as they lie in the file. The order is that of the messages, so it is the same
-/// in every storage. Not thread-safe.
+/// their topics, then of the files, then of the file. The order depends only on the messages, so it is the same in
+/// every storage. Not thread-safe.
 class MessageSelection {
  public:
-  /// Messages on topics with these exact names, or on all topics for nullopt, that were received within a range. The
-  /// files outlive this object.
+  /// Selects messages on topics with these exact names, or on all topics for nullopt, that were received within a
+  /// range. The files must outlive this object.
   MessageSelection(const std::vector<RecordingFile*>& files, const std::optional<std::vector<std::string>>& topics,
                    const ReceiptRange& range);
 
@@ -30,11 +30,11 @@ class MessageSelection {
   urban_nav_core::StampNs last() const { return last_; }
   /// Returns the next message; nullopt at the end.
   std::optional<RecordedMessage> next();
-  /// Begins anew with the first message.
+  /// Restarts with the first message.
   void rewind();
 
  private:
-  /// Messages of one connection that are still to come.
+  /// Remaining messages of one connection.
   struct Cursor {
     RecordingFile* file;
     std::size_t connection;
@@ -44,8 +44,8 @@ class MessageSelection {
   };
   static bool isLater(const Cursor& a, const Cursor& b);
 
-  std::vector<Cursor> all_;   // as they begin, by rank
-  std::vector<Cursor> heap_;  // the next message is that of the first
+  std::vector<Cursor> all_;   // initial cursors, by rank
+  std::vector<Cursor> heap_;  // the first element has the next message
   std::size_t size_ = 0;
   urban_nav_core::StampNs first_ = 0, last_ = 0;
 };

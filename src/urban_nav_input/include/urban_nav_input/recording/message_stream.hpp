@@ -19,9 +19,8 @@
 
 namespace urban_nav_input {
 
-/// Input stream that the serializers generated for ROS 1 messages accept, for both ROS 1 and ROS 2. Members are the
-/// same but for Header.seq, which CDR does not hold and which becomes 0. Throws std::runtime_error if the bytes end
-/// before the message.
+/// Input stream for the generated serializers of ROS 1 messages, for both ROS 1 and ROS 2. Members are equal except
+/// Header.seq, which is missing in CDR and becomes 0. Throws std::runtime_error if the bytes end before the message.
 class MessageStream {
  public:
   /// `bytes` outlive this object; those of CDR begin with the encapsulation header.
@@ -116,7 +115,7 @@ class MessageStream {
       std::reverse(bytes, bytes + sizeof(T));
     }
   }
-  /// Pixels and points are written once, not set to zero before.
+  /// Does not zero-initialise pixels and points.
   template <typename T, typename Allocator>
   void assign(std::vector<T, Allocator>& values, std::size_t count) {
     const std::uint8_t* bytes = take(count * sizeof(T));

@@ -20,10 +20,10 @@ namespace urban_nav_input {
 
 class RecordingFile;
 
-/// Throws the DataError of a file that cannot be read on, with what was found.
+/// Throws the DataError for a file that has become unreadable, with the cause.
 [[noreturn]] void throwDamaged(const std::string& path, const std::exception& found);
 
-/// A message of a recording, read when its content is asked for. Valid as long as the Recording.
+/// A message of a recording, read on access. Valid as long as the Recording.
 class RecordedMessage {
  public:
   RecordedMessage(RecordingFile& file, std::size_t connection, const MessageEntry& entry)
@@ -35,10 +35,10 @@ class RecordedMessage {
   const std::string& path() const;
   /// Returns the time at which the recorder received the message, ns.
   urban_nav_core::StampNs receipt() const { return entry_.receipt; }
-  /// Returns the message as it is encoded, valid until another one of the recording is read; no data if it is damaged.
+  /// Returns the encoded message, valid until another one of the recording is read; no data if it is damaged.
   ByteView bytes() const;
-  /// Returns the message; null if it is of another type, or if the storage could not read it, which it counts. Throws
-  /// DataError if its bytes are damaged.
+  /// Returns the message; null if it is of another type, or unreadable, which the storage counts. Throws DataError if
+  /// its bytes are damaged.
   template <typename Message>
   boost::shared_ptr<Message> as() const {
     namespace traits = ros::message_traits;
@@ -65,12 +65,12 @@ class RecordedMessage {
   };
 
  private:
-  /// Bytes with what they are.
+  /// Bytes with their encoding.
   struct Encoded {
     ByteView bytes;
     MessageEncoding encoding;
   };
-  /// Returns the bytes as those of a type; nullopt if they are of another type, or could not be read.
+  /// Returns the bytes of a message of a type; nullopt if it is of another type, or unreadable.
   std::optional<Encoded> encodedAs(const Type& type) const;
 
   RecordingFile* file_;

@@ -26,7 +26,7 @@ class RecordedMessages {
  public:
   explicit RecordedMessages(std::list<MessageSelection> files);
 
-  /// Returns the next message; nullopt at the end. Throws DataError if the recording cannot be read on.
+  /// Returns the next message; nullopt at the end. Throws DataError if the recording becomes unreadable.
   std::optional<RecordedMessage> next();
   /// Returns the number of messages, whether returned already or not.
   std::size_t size() const { return size_; }
@@ -36,8 +36,8 @@ class RecordedMessages {
   std::size_t size_ = 0;
 };
 
-/// The files of a recording, open for reading, whatever their storage. The only access to messages for code outside of
-/// recording/. Not thread-safe.
+/// The files of a recording in any storage, open for reading. Code outside of recording/ accesses messages only through
+/// this class. Not thread-safe.
 class Recording {
  public:
   /// Throws UserError for a file that is not a recording, DataError for one that cannot be read.
@@ -49,18 +49,18 @@ class Recording {
   const std::vector<std::string>& paths() const { return paths_; }
   /// Returns the kind of storage of the first file: "bag", "mcap".
   std::string kind() const;
-  /// Returns what the first file is, for messages: "a ROS 1 bag", "MCAP of ROS 2".
+  /// Returns a description of the first file for the user: "a ROS 1 bag", "MCAP of ROS 2".
   std::string description() const;
   /// Returns the type of every topic, "sensor_msgs/Image", by name.
   std::map<std::string, std::string> topicTypes() const;
   /// Returns the connections of all files, in their order.
   std::vector<Connection> connections() const;
-  /// Returns why messages of a topic cannot be decoded: their encoding, or a definition that is missing or not
-  /// understood; empty if they can be. Reads the first of them, of this type if one is given.
+  /// Returns the reason why messages of a topic cannot be decoded: their encoding, or a missing or unsupported
+  /// definition; empty if they can. Reads the first message, of type `type` if given.
   std::string undecoded(const std::string& topic, const std::string& type = {});
   /// Returns the number of messages on a topic.
   std::size_t count(const std::string& topic);
-  /// Returns the transforms of /tf_static, and those of /tf that stay the same throughout.
+  /// Returns the transforms of /tf_static, and the constant ones of /tf.
   urban_nav_ros::StaticTransforms transforms();
   /// Returns the receipt of the first message, ns; 0 for a recording without messages.
   urban_nav_core::StampNs begin();
@@ -79,7 +79,7 @@ class Recording {
       if (boost::shared_ptr<Message> message = each->as<Message>()) return message;
     return nullptr;
   }
-  /// Returns what is missing or damaged in the files, as far as it was met by now, each with the name of its file.
+  /// Returns the defects of the files found so far, each with the name of its file.
   std::vector<std::string> warnings() const;
 
   /// Returns the files in their order; valid as long as the recording.

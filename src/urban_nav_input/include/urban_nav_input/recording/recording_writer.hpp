@@ -12,8 +12,8 @@
 
 namespace urban_nav_input {
 
-/// Writes a recording that appears when it is complete. The same messages give the same bytes. Throws UserError naming
-/// the file where it cannot be written. Not thread-safe.
+/// Writes a recording, which appears when it is complete. The same messages give the same bytes. Throws UserError
+/// naming the file if it cannot be written. Not thread-safe.
 class RecordingWriter {
  public:
   RecordingWriter() = default;
@@ -21,22 +21,22 @@ class RecordingWriter {
   RecordingWriter& operator=(const RecordingWriter&) = delete;
   virtual ~RecordingWriter() = default;
 
-  /// Returns why messages of a connection cannot be written, if so.
+  /// Returns the reason why messages of a connection cannot be written; nullopt if they can.
   virtual std::optional<std::string> refusal(const Connection& connection) = 0;
-  /// Appends a message as its connection encodes it. The connection is recognised by its address, which stays valid.
-  /// Requires that refusal() is empty. Throws std::runtime_error if the bytes end before the message.
+  /// Appends a message in the encoding of its connection. The connection is identified by its address, which must stay
+  /// valid. Requires that refusal() is empty. Throws std::runtime_error if the bytes end before the message.
   virtual void write(const Connection& connection, urban_nav_core::StampNs receipt, ByteView message) = 0;
   /// Returns the size of the file so far, bytes.
   virtual std::uint64_t size() const = 0;
-  /// Completes the file, under its name.
+  /// Completes the file and renames it to its final name.
   virtual void commit() = 0;
 };
 
-/// Returns a writer of a ROS 1 bag for a path that ends in ".bag", or of MCAP for ".mcap". Messages are serialized anew
-/// if the encodings differ: a bag holds those of ROS 1, MCAP those in CDR, and what cannot be decoded as it is. Throws
-/// UserError for another ending.
+/// Returns a writer of a ROS 1 bag for a path that ends in ".bag", or of MCAP for ".mcap". Converts
+/// messages if the encodings differ: to ROS 1 for a bag, to CDR for MCAP, which copies undecodable messages unchanged.
+/// Throws UserError for another extension.
 std::unique_ptr<RecordingWriter> createRecording(const std::string& path);
-/// Returns a writer of a ROS 1 bag, whatever the ending.
+/// Returns a writer of a ROS 1 bag for any extension.
 std::unique_ptr<RecordingWriter> createBag(const std::string& path);
 
 }  // namespace urban_nav_input

@@ -9,8 +9,8 @@
 
 namespace urban_nav_input {
 
-/// Returns what is wrong with the accelerometer on a topic; nothing if it is sound. `present`: the convention by which
-/// its messages were read. The options state the convention that repairs them.
+/// Returns the defects of the accelerometer on a topic. `present`: convention by which its messages were read. The
+/// options set the convention that corrects them.
 std::vector<Finding> accelerometerFindings(const std::string& topic,
                                            const urban_nav_core::AccelerometerVerdict& verdict,
                                            const urban_nav_core::AccelerometerConvention& present);

@@ -13,7 +13,7 @@
 
 namespace urban_nav_input {
 
-/// Counts what is wrong with the fixes of a GPS receiver. Not thread-safe.
+/// Counts defects of the fixes of a GPS receiver. Not thread-safe.
 class GpsExamination {
  public:
   void add(const sensor_msgs::NavSatFix& fix);
@@ -26,9 +26,9 @@ class GpsExamination {
  private:
   std::int64_t messages_ = 0;
   std::int64_t no_fix_ = 0, at_zero_ = 0, no_angles_ = 0, no_altitude_ = 0, no_stamp_ = 0;
-  std::int64_t repeated_ = 0;          // positions with all digits of the one before
-  std::int64_t jumps_ = 0;             // positions that no vehicle reaches from the one before
-  std::int64_t no_variance_ = 0;       // zero, though of a known type
+  std::int64_t repeated_ = 0;          // positions equal to the previous one
+  std::int64_t jumps_ = 0;             // positions farther from the previous one than a vehicle can move
+  std::int64_t no_variance_ = 0;       // zero covariance of a known type
   std::array<double, 3> last_ = {{}};  // latitude and longitude in deg, altitude in m; 0 where it is not finite
   double last_stamp_ = 0.0;            // s; 0: none
 };

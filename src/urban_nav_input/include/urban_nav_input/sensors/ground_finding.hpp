@@ -10,10 +10,10 @@
 
 namespace urban_nav_input {
 
-/// Compares three directions that should be one: up by the ground that stereo sees (by the place of the camera), up by
-/// the accelerometer (by the place of the IMU), and the z axis of base_link. Names the device whose place contradicts
-/// the other two by more than slopes explain. `grounds`: few or scattered ones give nothing. `force`: mean specific
-/// force in the same axes, of any length.
+/// Compares three estimates of the vertical: by the ground plane of stereo (with the pose of the camera), by the
+/// accelerometer (with the pose of the IMU), and the z axis of base_link. Returns a finding on the device whose pose
+/// contradicts the other two by more than slopes explain. `grounds`: few or scattered ones give no finding. `force`:
+/// mean specific force in the axes of base_link, of any length.
 std::vector<Finding> groundFindings(const std::string& imu, const std::vector<SeenGround>& grounds,
                                     const urban_nav_core::Vector3d& force);
 

@@ -14,15 +14,14 @@
 
 namespace urban_nav_input {
 
-/// Counts what is wrong with the scans of one laser. Not thread-safe.
+/// Counts defects of the scans of one laser. Not thread-safe.
 class LaserExamination {
  public:
-  /// `role`: "laser_left" or "laser_right", as in `input.laser_left_delay`. `convention`: by which its messages are
-  /// read.
+  /// `role`: "laser_left" or "laser_right", as in `input.laser_left_delay`. `convention`: for reading its messages.
   LaserExamination(std::string role, std::string topic, const urban_nav_core::LaserConvention& convention)
       : role_(std::move(role)), topic_(std::move(topic)), convention_(convention) {}
 
-  /// Returns the scan of a message; nullopt, and counted, where its beams cannot be placed.
+  /// Returns the scan of a message; nullopt, and counted, if the directions of its beams are unknown.
   std::optional<urban_nav_core::PlanarScan> read(const sensor_msgs::LaserScan& message);
   const std::string& role() const { return role_; }
   std::vector<Finding> findings() const;

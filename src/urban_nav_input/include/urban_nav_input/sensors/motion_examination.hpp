@@ -15,11 +15,11 @@
 
 namespace urban_nav_input {
 
-/// Compares the motion that wheels and a gyroscope state with each other and with the motion that stereo sees: scale
-/// and sign of distances and of turns. What moved too little for a ratio is not assessed. Not thread-safe.
+/// Compares the motion measured by wheels and a gyroscope with each other and with stereo: scale and sign of distances
+/// and rotations. Needs sufficient motion for a ratio. Not thread-safe.
 class MotionExamination {
  public:
-  /// Adds the pose that wheels state, m and rad in their own frame of odometry, and the forward speed, m/s.
+  /// Adds the pose by wheels, m and rad in their odometry frame, and the forward speed, m/s.
   void addWheels(urban_nav_core::StampNs stamp, const std::array<double, 3>& x_y_yaw, double speed);
   /// Adds the rate about the vertical axis of base_link, rad/s.
   void addGyroscope(urban_nav_core::StampNs stamp, double yaw_rate);
@@ -36,7 +36,7 @@ class MotionExamination {
   /// Measured motions with the reference of the same intervals.
   struct Ratios {
     Pairs distances, wheel_turns, gyroscope_turns;  ///< by stereo
-    Pairs gyroscope_wheels;                         ///< turns of the gyroscope by those of the wheels
+    Pairs gyroscope_wheels;                         ///< rotations of the gyroscope relative to those of the wheels
   };
   Ratios compare(const std::vector<SeenMotion>& seen) const;
   std::optional<Finding> distanceFinding(const Ratios& ratios, const std::string& wheels,

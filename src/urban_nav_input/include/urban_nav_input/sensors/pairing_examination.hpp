@@ -13,27 +13,27 @@
 
 namespace urban_nav_input {
 
-/// By which stamps two images belong together: |stamp of left - (stamp of right - right_delay)| <= tolerance.
+/// Condition on the stamps of the two images of a pair: |stamp of left - (stamp of right - right_delay)| <= tolerance.
 struct PairingConvention {
-  urban_nav_core::StampNs right_delay = 0;        ///< ns by which right images are stamped later than left ones
+  urban_nav_core::StampNs right_delay = 0;        ///< ns, delay of the stamps of right images relative to left ones
   urban_nav_core::StampNs tolerance = 5'000'000;  ///< ns
 };
 
-/// Relation of the stamps of two cameras that lose pairs, and the convention that would keep them.
+/// Relation of the stamps of two cameras with incomplete pairs, and the convention that would pair them.
 struct PairingVerdict {
   bool is_constant = false;                      ///< the delay is the same for nearly all pairs
   urban_nav_core::StampNs least = 0, most = 0;   ///< ns, of the delays of right images; equal if constant
-  std::optional<PairingConvention> repair = {};  ///< to be used in place of the present one; empty: none fits
+  std::optional<PairingConvention> repair = {};  ///< convention that pairs the images; nullopt: none
 };
 
-/// Compares the stamps of left and right images. Left and right stamps are in the order of time, as they were recorded;
-/// `present`: the convention by which they were paired. Nullopt if there are fewer than three of a side, or if the
-/// images that have a partner at all are paired already: others were lost, and no convention brings them back.
+/// Compares the stamps of left and right images. Left and right stamps are in the order of time, as recorded;
+/// `present`: the convention by which they were paired. nullopt if there are fewer than three of a side, or if all
+/// images with a partner are already paired, i.e. the others were lost.
 std::optional<PairingVerdict> examinePairing(const std::vector<urban_nav_core::StampNs>& left,
                                              const std::vector<urban_nav_core::StampNs>& right,
                                              const PairingConvention& present);
 
-/// Remembers the stamps of the images of a recording, and explains images that have no partner. Not thread-safe.
+/// Collects the stamps of the images of a recording, and explains images without partner. Not thread-safe.
 class PairingExamination {
  public:
   /// `side`: 0 left, 1 right. `stamp`: as recorded.

@@ -9,11 +9,11 @@
 
 namespace urban_nav_input {
 
-/// Returns a finding for a sensor that is farther from base_link than any robot is long: its place is stated in other
-/// units than metres. The option states the place in metres, unless two units are about as likely.
+/// Returns a finding for a sensor farther from base_link than the size of a robot: its pose is not in metres. The
+/// option sets the pose in metres, unless two units are about as likely.
 std::vector<Finding> placeFindings(const std::string& frame, const urban_nav_core::Pose& T_base_sensor);
 
-/// Returns the option that states the place of a sensor.
+/// Returns the option that sets the pose of a sensor.
 std::vector<std::string> placeOptions(const std::string& frame, const urban_nav_core::Pose& T_base_sensor);
 
 }  // namespace urban_nav_input

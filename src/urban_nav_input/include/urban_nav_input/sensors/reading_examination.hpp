@@ -12,8 +12,7 @@
 
 namespace urban_nav_input {
 
-/// Counts the readings of one topic that are not finite, and those that repeat the one before to all digits. Not
-/// thread-safe.
+/// Counts the readings of one topic that are not finite, and those equal to the previous one. Not thread-safe.
 class ReadingExamination {
  public:
   /// Adds the numbers of a message.

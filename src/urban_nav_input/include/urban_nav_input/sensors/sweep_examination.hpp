@@ -11,15 +11,15 @@
 
 namespace urban_nav_input {
 
-/// Counts what is wrong with the sweeps of one 3D LiDAR. Not thread-safe.
+/// Counts defects of the sweeps of one 3D LiDAR. Not thread-safe.
 class SweepExamination {
  public:
-  /// `topic`: in what people read, or the folder of the files. `near`: m, nearer returns were left out.
+  /// `topic`: name for the user, or the folder of the files. `near`: m, nearer returns were ignored.
   SweepExamination(std::string topic, urban_nav_core::CloudConvention convention, double near)
       : topic_(std::move(topic)), convention_(std::move(convention)), near_(near) {}
 
-  /// Adds a cloud in the order of reading. `is_late`: it was dropped because its reference is no later than the one
-  /// before.
+  /// Adds a cloud in the order of reading. `is_late`: dropped because its reference is not later than the previous
+  /// one.
   void add(const urban_nav_core::ReadSweep& sweep, bool is_late);
   /// Adds a file that cannot be read, with the reason.
   void addFault(const std::string& fault);
@@ -40,10 +40,10 @@ class SweepExamination {
   double near_;
   std::int64_t sweeps_ = 0, late_ = 0;
   std::int64_t unreadable_ = 0, truncated_ = 0, empty_ = 0, few_ = 0;
-  std::string fault_;                                          // the first reason why one is unreadable
-  std::int64_t constant_ = 0, decreasing_ = 0, too_long_ = 0;  // clouds without usable times, of those that have some
-  std::int64_t moved_ = 0;                                     // to the clock of the headers, though not all are
-  std::int64_t incomplete_ = 0;                                // lack more than a tenth of the rings
+  std::string fault_;                                          // first reason of an unreadable sweep
+  std::int64_t constant_ = 0, decreasing_ = 0, too_long_ = 0;  // clouds with unusable times
+  std::int64_t moved_ = 0;       // clouds moved to the clock of the headers, if not all are
+  std::int64_t incomplete_ = 0;  // lack more than a tenth of the rings
   std::int64_t overlaps_ = 0;
   double overlap_s_ = 0.0;                             // the longest
   std::vector<double> intervals_;                      // s, between references

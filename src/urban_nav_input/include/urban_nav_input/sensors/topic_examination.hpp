@@ -10,8 +10,8 @@
 
 namespace urban_nav_input {
 
-/// Returns a finding for each topic that would serve a role which no topic has: lasers, IMU and GPS by their types,
-/// with the option that names it; and for point clouds where no scan and no 3D LiDAR is. `available`: name and type of
+/// Returns a finding for each topic suitable for a role without a topic: lasers, IMU and GPS by their types, with the
+/// option that selects it; and for point clouds if there are neither scans nor 3D LiDARs. `available`: name and type of
 /// every topic.
 std::vector<Finding> topicFindings(const std::map<std::string, std::string>& available, const BagTopics& chosen);
 

@@ -16,10 +16,9 @@ struct BagFixes {
   bool is_placed = false;                                              ///< by /tf_static; otherwise at base_link
 };
 
-/// Reads the fixes of the bags of one session, in the order of the bags. `topics`: wishes, as chooseTopics() takes
-/// them. `transforms`, `delay` (ns): as SourceOptions::transforms and gps_delay. Messages without a fix, or with
-/// numbers that are not finite, are left out (toGpsReading()). Nothing if `paths` are no bags. Throws DataError for a
-/// damaged bag.
+/// Reads the fixes of the bags of one session, in the order of the bags. `topics`: wishes for chooseTopics().
+/// `transforms`, `delay` (ns): as SourceOptions::transforms and gps_delay. Omits messages without a fix, or with
+/// numbers that are not finite (toGpsReading()). Empty if `paths` are not bags. Throws DataError for a damaged bag.
 BagFixes readBagFixes(const std::vector<std::string>& paths, const std::vector<std::string>& topics,
                       const std::vector<std::string>& transforms = {}, urban_nav_core::StampNs delay = 0);
 

@@ -17,7 +17,7 @@ namespace urban_nav_input {
 class BagPanorama {
  public:
   BagPanorama() = default;
-  /// Reads frame, place and calibration of the cameras with a topic of `topics` that has images. Throws
+  /// Reads frame, extrinsics and calibration of the cameras with a topic of `topics` that has images. Throws
   /// DataError for a damaged recording.
   BagPanorama(Recording& recording, const BagTopics& topics, const urban_nav_ros::StaticTransforms& transforms);
 
@@ -27,12 +27,12 @@ class BagPanorama {
   /// Adds a message if it is an image of one of the cameras; returns whether it is.
   bool add(const RecordedMessage& message);
   void finish();
-  /// Returns all panoramas that are known to be complete, or to stay incomplete.
+  /// Returns all panoramas that are complete, or cannot be completed any more.
   std::vector<urban_nav_ros::Panorama> take();
   /// Returns sentences on images that are missing, late, or duplicates.
   std::vector<std::string> faults() const;
 
-  /// Reads or writes the state between two messages. Reading: cameras that these bags do not place are those of the
+  /// Reads or writes the state between two messages. Reading: cameras without extrinsics in these bags get those of the
   /// state. Throws DataError if the bags have other cameras.
   void archive(urban_nav_core::Archive& archive);
 

@@ -9,10 +9,10 @@
 
 namespace urban_nav_input {
 
-/// Returns what is implausible in a rectified stereo calibration: a baseline in other units than metres, a principal
-/// point far from the middle of the image, a field of view that no lens has, pixels that are not square.
-/// `baseline_scale`: by which the baseline has been multiplied already (input.baseline_scale). The options of a
-/// baseline scale it, unless two units are about as likely.
+/// Returns implausible values of a rectified stereo calibration: a baseline in other units than metres, a principal
+/// point far from the image centre, an impossible field of view, pixels that are not square. `baseline_scale`: factor
+/// already applied to the baseline (input.baseline_scale). The options scale the baseline, unless two units are about
+/// as likely.
 std::vector<Finding> checkCalibration(const urban_nav_core::StereoCamera& camera, double baseline_scale = 1.0);
 
 }  // namespace urban_nav_input

@@ -16,7 +16,7 @@ namespace urban_nav_input {
 
 class Transcoder;
 
-/// Reads the clouds of a recording, whatever the type of their messages. Not thread-safe.
+/// Reads the clouds of a recording from messages of any supported type. Not thread-safe.
 class CloudMessages {
  public:
   struct Cloud {
@@ -28,7 +28,7 @@ class CloudMessages {
   CloudMessages& operator=(CloudMessages&&) noexcept;
   ~CloudMessages();
 
-  /// Returns the cloud in a message; nullopt if it has none that can be read. A header without stamp gets the receipt.
+  /// Returns the cloud of a message; nullopt if unreadable. A header without stamp gets the time of receipt.
   /// Throws DataError if the bytes of a PointCloud2 are damaged.
   std::optional<Cloud> read(const RecordedMessage& message);
 
@@ -37,7 +37,7 @@ class CloudMessages {
 
   boost::shared_ptr<void> owner_;  // of the bytes of the last cloud
   std::vector<std::uint8_t> bytes_;
-  std::map<std::string, std::unique_ptr<Transcoder>> transcoders_;  // by definition; null: it is ours
+  std::map<std::string, std::unique_ptr<Transcoder>> transcoders_;  // by definition; null: that of the suite
 };
 
 }  // namespace urban_nav_input

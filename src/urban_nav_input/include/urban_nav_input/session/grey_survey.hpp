@@ -9,8 +9,7 @@
 
 namespace urban_nav_input {
 
-/// Returns the settled range of the 16-bit pixels of cameras whose brightness is compared, from the first images of
-/// each topic.
+/// Returns the common range of the 16-bit pixels of cameras, from the first images of each topic.
 urban_nav_ros::GreyRange surveyGreyRange(Recording& recording, const std::vector<std::string>& topics);
 
 }  // namespace urban_nav_input

@@ -14,7 +14,7 @@ struct InputParameters : urban_nav_core::MotionInputParameters, urban_nav_ros::S
   double right_delay, pairing_tolerance;  // ms
   double baseline_scale;                  // m
   std::string sessions;                   // auto, apart, together
-  std::string points_time;                // "auto", or as parsePointTimes() reads
+  std::string points_time;                // "auto", or a value of parsePointTimes()
   std::string points_deskewed;            // auto, yes, no
   double points_near;                     // m
   double points0_delay, points1_delay;    // ms
@@ -24,7 +24,7 @@ struct InputParameters : urban_nav_core::MotionInputParameters, urban_nav_ros::S
 
 const urban_nav_core::Table<InputParameters>& inputTable();
 
-/// Sets the options that parameters state. Throws UserError for unknown axes.
+/// Sets the options given by parameters. Throws UserError for unknown axes.
 void apply(const InputParameters& parameters, SourceOptions& options);
 
 }  // namespace urban_nav_input

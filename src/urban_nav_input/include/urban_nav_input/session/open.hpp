@@ -16,42 +16,41 @@
 
 namespace urban_nav_input {
 
-/// Statements of the user on the clouds of 3D LiDARs.
+/// Options of the user for the clouds of 3D LiDARs.
 struct PointsOptions {
-  std::optional<urban_nav_core::PointTimes> times;  ///< as input.points_time; nullopt: found
+  std::optional<urban_nav_core::PointTimes> times;  ///< as input.points_time; nullopt: determined from the values
   std::optional<bool> deskewed;                     ///< as input.points_deskewed; nullopt: by the kind of the input
   double near = 0.5;                                ///< m, as input.points_near
   std::array<double, 2> delays = {};                ///< ms, of points0 and points1, as input.points0_delay and so on
 };
 
-/// What the user said about inputs.
+/// Options of the user for inputs.
 struct SourceOptions {
   std::vector<std::string> topics;                ///< ROLE:=NAME, for bags
-  std::string calibration;                        ///< file for bags and KITTI folders; empty: their own
+  std::string calibration;                        ///< file for bags and KITTI folders; empty: that of the input
   double rate = 0.0;                              ///< Hz of an image folder without stamps; 0: 10 Hz
   std::string motion_input = "none";              ///< as input.motion_input
   double wheel_noise = 0.0;                       ///< as input.wheel_noise
   double gyro_noise = 0.0;                        ///< as input.gyro_noise
   PairingConvention pairing = {};                 ///< as input.right_delay and input.pairing_tolerance
   double baseline_scale = 1.0;                    ///< as input.baseline_scale
-  std::vector<std::string> read_elsewhere = {};   ///< topics of bags that do not count as unused
+  std::vector<std::string> read_elsewhere = {};   ///< topics of bags that are not reported as unused
   urban_nav_ros::SensorCorrections sensors = {};  ///< as input.imu_delay and so on
-  std::vector<std::string> transforms = {};       ///< PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW, which take precedence over tf
+  std::vector<std::string> transforms = {};       ///< PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW, overriding tf
   PointsOptions points = {};
-  /// Whether sweeps of 3D LiDARs are read. A session without images is then one if it has sweeps; otherwise it is
-  /// refused.
+  /// Whether sweeps of 3D LiDARs are read. If so, a session without images but with sweeps is accepted.
   bool with_sweeps = false;
   SessionRule sessions = SessionRule::Auto;  ///< as input.sessions
 };
 
 enum class InputKind { KittiFolder, EurocFolder, NewCollegeFolder, Bag };
 
-/// What lies at `path`. UserError that names what is known where it is none of it.
+/// Returns the kind of input at `path`. Throws UserError listing the known kinds if it is none of them.
 InputKind inputKind(const std::string& path);
 
-/// One session: a folder, or the bags of a recording (more than one where it was split). `after`: where another reader
-/// of the recording stood, with bags that count as the first of `paths`; null for a reader that begins at the start.
-/// `part`: of the bags, what was received within this range. UserError where the bags do not follow.
+/// Opens one session: a folder, or the bags of a recording (several if it was split). `after`: state of another reader
+/// at the end of a bag, which has read the first `after->bags` of `paths`; null to begin at the start. `part`: range of
+/// receipt within the bags. Throws UserError if the bags do not follow.
 std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const SourceOptions& options,
                                    const BagEnd* after = nullptr, const ReceiptRange& part = {});
 

@@ -16,13 +16,12 @@
 
 namespace urban_nav_input {
 
-/// Planar lasers whose drivers publish clouds in place of scans: their clouds are read as scans. Not thread-safe.
+/// Reads the clouds of planar lasers whose drivers publish clouds instead of scans as scans. Not thread-safe.
 class PlanarClouds {
  public:
   PlanarClouds() = default;
-  /// Finds them among the topics of 3D LiDARs, and gives each the role of a laser: the right one to a topic whose name
-  /// has "right" in it, if it is free, else one that is free. Those that `wishes` name stay what they are. The 3D
-  /// LiDARs that remain keep their order.
+  /// Finds planar lasers among the topics of 3D LiDARs, and assigns each a free laser role, laser_right preferably to a
+  /// topic whose name contains "right". Topics in `wishes` keep their roles. Remaining 3D LiDARs keep their order.
   PlanarClouds(Recording& recording, const ReceiptRange& part, const std::vector<std::string>& wishes,
                BagTopics& topics);
 

@@ -6,7 +6,7 @@
 
 namespace urban_nav_input::testing {
 
-/// The same bag, `seconds` later: stamps and times of receipt.
+/// Copies a bag with stamps and times of receipt `seconds` later.
 void delayBag(const std::string& from, const std::string& to, double seconds);
 
 enum class Rewrite {
@@ -16,9 +16,9 @@ enum class Rewrite {
 };
 void rewriteBag(const std::string& from, const std::string& to, Rewrite how);
 
-/// The same bag in parts of equal length by times of receipt, with an IMU that lies askew, wheels that turn, and
-/// panoramas of five images as often as left images. What is published once (/tf_static) is in the first part alone;
-/// images come up to 40 ms late, so that pairs are cut in two.
+/// Copies a bag in parts of equal duration by receipt, with a tilted IMU, turning wheels, and panoramas of five images
+/// at the rate of left images. Only the first part has /tf_static; images are up to 40 ms late, so that some pairs are
+/// divided between parts.
 void splitBag(const std::string& from, const std::vector<std::string>& parts);
 
 }  // namespace urban_nav_input::testing

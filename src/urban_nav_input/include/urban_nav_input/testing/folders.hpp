@@ -6,7 +6,7 @@
 
 namespace urban_nav_input::testing {
 
-/// A folder of its own for one test, gone when the test is.
+/// A temporary folder for one test, removed with this object.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -22,14 +22,14 @@ class TemporaryFolder {
 std::string readFile(const std::string& path);
 void writeFile(const std::string& path, const std::string& content);
 
-/// How a KITTI folder is laid out.
+/// Layout of a KITTI folder.
 struct KittiStyle {
   std::string left = "image_0", right = "image_1";
   int digits = 6;
   bool times = true, truth = true;
   int frames = 16;
 };
-/// A rendered room, 240x180 px at 20 Hz, as a KITTI folder.
+/// Writes a rendered room, 240x180 px at 20 Hz, as a KITTI folder.
 void makeKittiFolder(const std::string& path, const KittiStyle& style = {});
 
 }  // namespace urban_nav_input::testing

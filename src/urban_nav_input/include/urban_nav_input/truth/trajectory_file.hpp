@@ -8,16 +8,16 @@
 
 namespace urban_nav_input {
 
-/// A trajectory as a file has it: with stamps (TUM, EuRoC) or without (KITTI's lines).
+/// A trajectory from a file: with stamps (TUM, EuRoC) or without (KITTI lines).
 struct TrajectoryFile {
   std::string path;
   bool stamped = true;
   urban_nav_core::Trajectory trajectory;    ///< if stamped
-  std::vector<urban_nav_core::Pose> poses;  ///< always; KITTI's poses with the axes of base_link (REP-103)
+  std::vector<urban_nav_core::Pose> poses;  ///< always; KITTI poses with the axes of base_link (REP-103)
   std::vector<std::string> notes = {};      ///< for the user: lines that were sorted or left out, units of stamps
 };
 
-/// Returns a pose of optical axes, relative to a first pose of optical axes, as one of body axes.
+/// Converts a pose between optical frames to body axes.
 urban_nav_core::Pose opticalToBody(const urban_nav_core::Pose& T_first_camera);
 
 /// Reads .tum, .kitti, .txt (8 columns: TUM's, 12: KITTI's) and .csv (EuRoC's ground truth: stamp in ns, position,

@@ -10,14 +10,14 @@
 
 namespace urban_nav_input {
 
-/// The truth that lies in an input (poses.txt, state_groundtruth_estimate0, ground_truth/pose), as poses of base_link;
-/// read when the estimate is finished, so that it cannot reach it. Empty where there is none. UserError where it cannot
-/// be read.
+/// Returns the ground truth of an input (poses.txt, state_groundtruth_estimate0, ground_truth/pose) as poses of
+/// base_link; nullopt without one. Called after the estimate is finished, so that it cannot use the truth. Throws
+/// UserError if it cannot be read.
 std::optional<TrajectoryFile> findTruth(const InputSession& session, const SourceInfo& info,
                                         const SourceOptions& options);
 
-/// A truth given as a file, as poses of base_link: lines without stamps are those of the left camera, frame by frame at
-/// `stamps`.
+/// Returns ground truth from a file as poses of base_link: lines without stamps are poses of the left camera at
+/// `stamps`, one per frame.
 TrajectoryFile truthOfBase(const TrajectoryFile& file, const SourceInfo& info,
                            const std::vector<urban_nav_core::StampNs>& stamps);
 

@@ -12,7 +12,7 @@ struct KnownType {
 };
 
 /// Returns a type of std_msgs, geometry_msgs, sensor_msgs, nav_msgs or tf2_msgs by its name ("sensor_msgs/Image");
-/// nullopt for another one.
+/// nullopt for other types.
 std::optional<KnownType> findKnownType(const std::string& type);
 
 }  // namespace urban_nav_input

@@ -44,7 +44,7 @@ std::string withoutBlanks(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
-/// Parses one text after another, each when a member of its type is met.
+/// Parses the text of each type when a member of this type is found.
 class DefinitionParser {
  public:
   DefinitionParser(const std::string& type, const std::string& text) {
@@ -141,7 +141,7 @@ class DefinitionParser {
 
   std::map<std::string, std::string> texts_;   // definition by type
   std::map<std::string, std::size_t> places_;  // in layouts, by type
-  std::map<std::string, bool> open_;           // types that are being parsed
+  std::map<std::string, bool> open_;           // types being parsed
   MessageDefinition definition_;
 };
 

@@ -27,7 +27,7 @@ void Ros1Form::transcode(const Connection& connection) {
       connection_.definition = known->definition;
       return;
     } catch (const std::invalid_argument&) {
-      // Another version of the type, which the recording's own definition describes.
+      // Another version of the type, described by the definition in the recording.
     }
   }
   const MessageDefinition ros1 = withSequence(source);

@@ -8,8 +8,8 @@
 
 namespace urban_nav_input {
 
-/// Messages of a connection as those of ROS 1: of the type that the suite knows by this name, or of that which the
-/// definition in the recording describes. Not thread-safe.
+/// Converts messages of a connection to ROS 1: to the type of the suite with this name, or to the type defined in the
+/// recording. Not thread-safe.
 class Ros1Form {
  public:
   /// Throws std::invalid_argument with the reason if the messages cannot be decoded.
@@ -17,8 +17,8 @@ class Ros1Form {
 
   /// Returns the connection with the type, the definition and the MD5 sum of ROS 1.
   const Connection& connection() const { return connection_; }
-  /// Returns a message in the serialization of ROS 1, valid until the next call. Throws std::runtime_error if it is in
-  /// another encoding than its connection states, or ends too early.
+  /// Returns a message in the serialization of ROS 1, valid until the next call. Throws std::runtime_error if its
+  /// encoding is not that of the connection, or it ends too early.
   ByteView convert(ByteView message);
 
  private:

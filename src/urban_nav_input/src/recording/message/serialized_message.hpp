@@ -12,7 +12,7 @@
 
 namespace urban_nav_input {
 
-/// Message of any type, as librosbag and publishers of roscpp take it. Both members outlive it.
+/// Message of any type for librosbag and publishers of roscpp. Both members must outlive it.
 struct SerializedMessage {
   const Connection* connection;
   ByteView bytes;

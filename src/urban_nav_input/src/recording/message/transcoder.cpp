@@ -21,7 +21,7 @@ bool haveSameName(const MessageField& a, const MessageField& b) {
 
 }  // namespace
 
-/// One message on its way.
+/// Conversion of one message.
 class TranscoderRun {
  public:
   TranscoderRun(Transcoder& transcoder, ByteView in, MessageEncoding from, MessageEncoding to)

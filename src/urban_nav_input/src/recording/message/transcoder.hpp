@@ -13,23 +13,23 @@
 
 namespace urban_nav_input {
 
-/// Serializes messages of one definition and encoding anew by another definition and encoding: between ROS 1 and CDR,
-/// and between versions of a type. Members belong together by their names, whatever the case of letters; one that the
-/// source lacks becomes 0 or empty, one that the target lacks is left out. Not thread-safe.
+/// Converts messages of one definition and encoding to another definition and encoding: between ROS 1 and CDR, and
+/// between versions of a type. Members are matched by their names, ignoring case; those missing in the source become 0
+/// or empty, those missing in the target are omitted. Not thread-safe.
 class Transcoder {
  public:
-  /// Throws std::invalid_argument with the reason why the source cannot become the target: a member of another type, or
+  /// Throws std::invalid_argument with the reason if the conversion is not possible: a member of another type, or
   /// another order of members.
   Transcoder(MessageDefinition source, MessageDefinition target);
 
-  /// Returns whether all members are in both, but for std_msgs/Header.seq: the same bytes have the same meaning.
+  /// Returns whether both have the same members, except std_msgs/Header.seq, so that no conversion is needed.
   bool isSame() const { return is_same_; }
-  /// Returns a message in the target's definition, valid until the next call. `to`: Ros1 or CdrLittleEndian. Throws
-  /// std::runtime_error if the bytes end before the message.
+  /// Returns a message in the definition of the target, valid until the next call. `to`: Ros1 or CdrLittleEndian.
+  /// Throws std::runtime_error if the bytes end before the message.
   ByteView convert(ByteView bytes, MessageEncoding from, MessageEncoding to);
 
  private:
-  /// A member is copied if both are there, skipped for the source alone, set to 0 for the target alone.
+  /// A member is copied if it is in both, skipped if only in the source, set to 0 if only in the target.
   struct Step {
     const MessageField* source = nullptr;
     const MessageField* target = nullptr;

@@ -43,7 +43,7 @@ void BagFileWriter::write(const Connection& connection, urban_nav_core::StampNs 
     if (!connection.caller_id.empty()) (*header)["callerid"] = connection.caller_id;
   }
   try {
-    // rosbag refuses a receipt at time zero; the stamp in the header stays what it is.
+    // rosbag does not accept a receipt at time zero; the stamp in the header is unchanged.
     bag_->write(connection.topic, std::max(ros::TIME_MIN, urban_nav_ros::toRosTime(receipt)),
                 SerializedMessage{&connection, message}, header);
   } catch (const rosbag::BagException& error) {

@@ -18,7 +18,7 @@ class Bag;
 namespace urban_nav_input {
 
 /// Writes serialized messages to a ROS 1 bag whose chunks are not compressed. The bag appears when it is complete
-/// (until then it is PATH.active, as rosbag record has it). Throws UserError naming the bag where it cannot be written.
+/// (until then it is PATH.active, as for rosbag record). Throws UserError naming the bag if it cannot be written.
 /// Not thread-safe.
 class BagFileWriter {
  public:
@@ -34,7 +34,7 @@ class BagFileWriter {
  private:
   [[noreturn]] void fail(const std::exception& error) const;
 
-  /// The destructor of a bag that cannot be closed (the disk is full) ends the process: such a bag is never destroyed.
+  /// Does not destroy a bag that cannot be closed (full disk), since its destructor would end the process.
   struct Close {
     void operator()(rosbag::Bag* bag) const;
   };

@@ -23,7 +23,7 @@ constexpr std::uint32_t kVersion = 1;          // of index and chunk info record
 constexpr std::size_t kIndexEntry = 8 + 4;     // time and offset, bytes
 constexpr std::size_t kCountedConnection = 8;  // connection and number of its messages, bytes
 
-/// Reads the index of one bag; the functions return false where it is not consistent.
+/// Reads the index of one bag; the functions return false if it is inconsistent.
 class BagIndex {
  public:
   explicit BagIndex(ByteView file) : file_(file) {}
@@ -51,10 +51,10 @@ class BagIndex {
     return id && found_.try_emplace(*id, readConnection(record)).second;
   }
 
-  /// Adds a chunk and its messages, which its index records name.
+  /// Adds a chunk and its messages from its index records.
   bool addChunk(const Record& info) {
     const std::optional<std::uint64_t> begin = findNumber<std::uint64_t>(info.header, "chunk_pos");
-    // With chunks that overlap, a small file could name the same messages millions of times.
+    // With overlapping chunks, a small file could refer to the same messages millions of times.
     if (!begin || *begin < end_ || *begin >= file_.size) return false;
     if (findNumber<std::uint32_t>(info.header, "ver") != kVersion) return false;
     RecordWalk walk(file_, *begin);

@@ -7,10 +7,10 @@
 
 namespace urban_nav_input {
 
-/// Reads the index of a ROS 1 bag: connections, chunks, and the index records after each chunk; nothing is
-/// decompressed. Connections without messages are left out, the others are in the order of their ids. Returns nullopt
-/// if the recorder did not finish the bag, or where a length, a place or a count is not what the file holds: its
-/// records are read then instead (scanBag()). Requires that the file begins with rosbag1::kMagic.
+/// Reads the index of a ROS 1 bag: connections, chunks, and the index records after each chunk, without decompression.
+/// Omits connections without messages; the others are in the order of their ids. Returns nullopt if the recorder did
+/// not finish the bag, or if a length, a position or a count is inconsistent with the file, which must then be read by
+/// scanBag(). Requires that the file begins with rosbag1::kMagic.
 std::optional<BagScan> readBagIndex(ByteView file);
 
 }  // namespace urban_nav_input

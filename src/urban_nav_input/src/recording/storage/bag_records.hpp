@@ -25,22 +25,22 @@ std::string findText(ByteView fields, std::string_view name);
 
 struct Record {
   Op op = Op::BagHeader;
-  std::uint64_t begin = 0;  ///< place in the bytes that are walked
+  std::uint64_t begin = 0;  ///< position in the bytes
   ByteView header;          ///< fields: length, then "name=value"
   ByteView data;
-  std::uint32_t data_size = 0;  ///< as the record states it; more than there are bytes where it is cut off
+  std::uint32_t data_size = 0;  ///< stated size; larger than the data if truncated
 };
 
-/// Records one after another. Not thread-safe.
+/// Iterates over records. Not thread-safe.
 class RecordWalk {
  public:
   explicit RecordWalk(ByteView bytes, std::uint64_t begin = 0) : bytes_(bytes), at_(begin) {}
 
-  /// Returns the next whole record; nullopt at the end, and where the next one is cut off or damaged.
+  /// Returns the next complete record; nullopt at the end, and if the next one is truncated or damaged.
   std::optional<Record> next();
   /// Returns the end of the last record.
   std::uint64_t at() const { return at_; }
-  /// Returns the record that begins here and is cut off after its header, with what there is of its data.
+  /// Returns the record at this position if it is truncated after its header, with its available data.
   std::optional<Record> cutRecord() const;
 
  private:

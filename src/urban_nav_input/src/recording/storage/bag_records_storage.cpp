@@ -14,8 +14,8 @@ namespace urban_nav_input {
 
 namespace {
 
-/// ROS 1 bag whose records are read by their places: by its index, or without it. librosbag, which does not check
-/// lengths and places of a damaged file, takes no part.
+/// ROS 1 bag whose records are read by their positions, with or without its index. Does not use librosbag, which does
+/// not check lengths and positions in a damaged file.
 class BagRecordsStorage : public Storage {
  public:
   BagRecordsStorage(const std::string& path, bool by_index)

@@ -27,7 +27,7 @@ std::string counted(std::uint64_t number, const char* one, const char* many) {
   return std::to_string(number) + " " + (number == 1 ? one : many);
 }
 
-/// Reads all records of a bag one after another.
+/// Reads all records of a bag in order.
 class BagWalk {
  public:
   BagWalk(std::string path, ByteView file) : path_(std::move(path)), file_(file) {}
@@ -62,8 +62,8 @@ class BagWalk {
     return findNumber<std::uint64_t>(record.header, "index_pos").value_or(0) != 0;
   }
 
-  /// Returns whether the recorder was writing into the chunk when the bag was cut off: sizes are written at its end.
-  /// The records of one without compression follow its header like those outside of chunks.
+  /// Returns whether the bag was truncated while the recorder was writing the chunk, whose size is written at its end.
+  /// Records of an uncompressed chunk follow its header like those outside of chunks.
   static bool isOpen(const rosbag1::Record& record) {
     return record.data_size == 0 && findNumber<std::uint32_t>(record.header, "size").value_or(0) == 0 &&
            findText(record.header, "compression") != "none";
@@ -73,7 +73,7 @@ class BagWalk {
     return {file_.data + begin, file_.size - static_cast<std::size_t>(begin)};
   }
 
-  /// `is_cut`: the chunk goes on beyond the end of the file.
+  /// `is_cut`: the chunk is truncated by the end of the file.
   void visitChunk(const rosbag1::Record& record, bool is_cut) {
     std::optional<McapChunk> read = readChunk(record);
     if (!read)

@@ -18,7 +18,7 @@ namespace urban_nav_input {
 
 namespace {
 
-/// Buffer for a message of librosbag: grows, and is not set to zero.
+/// Growing buffer for a message of librosbag, without zero-initialisation.
 class MessageBuffer {
  public:
   std::uint8_t* advance(std::uint32_t size) {
@@ -43,7 +43,7 @@ class MessageBuffer {
 /// ROS 1 bag of version 1.2, read by librosbag.
 class BagStorage : public Storage {
  public:
-  /// Throws what librosbag throws.
+  /// Throws the exceptions of librosbag.
   explicit BagStorage(std::string path) : path_(std::move(path)) {
     bag_.open(path_, rosbag::bagmode::Read);
     for (const rosbag::ConnectionInfo* info : rosbag::View(bag_).getConnections()) addConnection(*info);
@@ -121,7 +121,7 @@ class BagStorage : public Storage {
   std::vector<Index> indexes_;  // index: connection
   MessageBuffer buffer_;
   std::uint64_t damaged_ = 0;  // messages that could not be read
-  std::string fault_;          // that the first of them met
+  std::string fault_;          // of the first of them
 };
 
 /// Returns whether the version of a bag is 2.0, whose records are read without librosbag.
@@ -131,8 +131,8 @@ bool hasBagRecords(const std::string& path) {
   return begin == rosbag1::kMagic;
 }
 
-/// Throws DataError if the records of a bag do not fill it: librosbag ends the process at a length that it cannot
-/// allocate.
+/// Throws DataError if the records of a bag do not fill it, since librosbag ends the process for a length that it
+/// cannot allocate.
 void checkLengths(const std::string& path) {
   const MappedFile file(path);
   const ByteView bytes = file.bytes();

@@ -11,8 +11,8 @@
 
 namespace urban_nav_input {
 
-/// Reads little-endian numbers, and byte strings that follow their length, one after another. What lies beyond the end
-/// is 0 or empty, and isGood() is false from there on.
+/// Reads little-endian numbers and length-prefixed byte strings in order. Beyond the end, values are 0 or empty, and
+/// isGood() is false.
 class ByteReader {
  public:
   explicit ByteReader(ByteView bytes) : at_(bytes.data), end_(bytes.data + bytes.size) {}

@@ -11,7 +11,7 @@
 
 namespace urban_nav_input {
 
-/// Appends little-endian numbers, and byte strings after their length.
+/// Appends little-endian numbers and length-prefixed byte strings.
 class ByteWriter {
  public:
   template <typename T>

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kLane = 16, kBlock = 4 * kLane;  // bytes
 
-/// Powers of x modulo the polynomial, bit-reflected: they move 128 bits over what follows (Gopal et al. 2009, "Fast CRC
-/// computation for generic polynomials using PCLMULQDQ instruction").
+/// Powers of x modulo the polynomial, bit-reflected, which shift 128 bits over the following data (Gopal et al. 2009,
+/// "Fast CRC computation for generic polynomials using PCLMULQDQ instruction").
 constexpr long long kOverBlock[] = {0x154442bd4, 0x1c6e41596}, kOverLane[] = {0x1751997d0, 0x0ccaa009e},
                     kOver64 = 0x163cd6124, kPolynomial = 0x1db710641, kBarrett = 0x1f7011641;
 
@@ -29,7 +29,7 @@ __attribute__((target("pclmul,sse4.1"))) __m128i fold(__m128i sum, __m128i power
   return _mm_xor_si128(_mm_xor_si128(low, high), next);
 }
 
-/// Requires at least a block, and whole lanes. `state`: the CRC without its final inversion.
+/// Requires at least one block, and complete lanes. `state`: the CRC without its final inversion.
 __attribute__((target("pclmul,sse4.1"))) std::uint32_t foldLanes(const std::uint8_t* at, std::size_t size,
                                                                  std::uint32_t state) {
   const __m128i over_block = _mm_set_epi64x(kOverBlock[1], kOverBlock[0]);
@@ -43,7 +43,7 @@ __attribute__((target("pclmul,sse4.1"))) std::uint32_t foldLanes(const std::uint
   __m128i sum = sums[0];
   for (std::size_t i = 1; i < 4; ++i) sum = fold(sum, over_lane, sums[i]);
   for (; size >= kLane; at += kLane, size -= kLane) sum = fold(sum, over_lane, load(at));
-  // 128 bits become 64, these 32 by Barrett's reduction.
+  // Reduces 128 bits to 64, and these to 32 by Barrett reduction.
   const __m128i low32 = _mm_setr_epi32(-1, 0, -1, 0);
   sum = _mm_xor_si128(_mm_srli_si128(sum, 8), _mm_clmulepi64_si128(sum, over_lane, 0x10));
   sum = _mm_xor_si128(_mm_srli_si128(sum, 4),

@@ -57,7 +57,7 @@ class Db3Storage : public Storage {
       if (read_->next())
         if (const ByteView message = unpack_(read_->blob(0)); message.data != nullptr) return message;
     } catch (const DataError&) {
-      // Counted below: a damaged page does not concern the messages on others.
+      // Counted below: a damaged page does not affect messages on other pages.
     }
     ++damaged_;
     return {};
@@ -95,7 +95,7 @@ class Db3Storage : public Storage {
                           std::to_string(kNewestSchema) + ": read as the newest known schema");
   }
 
-  /// Rows come in the order of the file, which costs no index of SQLite and touches no message.
+  /// Reads rows in the order of the file, without an SQLite index and without reading messages.
   void readIndex() {
     std::uint64_t orphans = 0, read = 0;
     try {

@@ -83,7 +83,7 @@ bool isKnownCompression(const std::string& compression) {
 Inflated inflate(const std::string& compression, ByteView packed, std::size_t size) {
   Inflated out;
   if (size > urban_nav_core::largestPiece()) return out;
-  // Not set to zero: the system provides the pages as they are written, so that a damaged size costs nothing.
+  // Not zero-initialised: pages are allocated when written, so that a damaged size costs nothing.
   out.memory = boost::make_unique_noinit<std::uint8_t[]>(size);
   if (size == 0) out.is_whole = true;
   else if (compression == "zstd") inflateZstd(packed, size, out);

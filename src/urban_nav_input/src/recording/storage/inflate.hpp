@@ -10,21 +10,21 @@
 
 namespace urban_nav_input {
 
-/// Bytes without compression.
+/// Decompressed bytes.
 struct Inflated {
   std::unique_ptr<std::uint8_t[]> memory;
   std::size_t size = 0;
-  bool is_whole = false;  ///< all bytes that were expected, and nothing was damaged
+  bool is_whole = false;  ///< all expected bytes, without damage
 
   ByteView bytes() const { return {memory.get(), size}; }
 };
 
-/// Returns whether "zstd", "lz4" or whatever a file names is a compression of MCAP; "" is no compression.
+/// Returns whether a name is that of a compression of MCAP ("zstd", "lz4"); "" is no compression.
 bool isKnownCompression(const std::string& compression);
 
-/// Decompresses frames of zstd or lz4, or a stream of bz2, to `size` bytes. What is cut off or damaged is inflated as
-/// far as it goes, to whole blocks; nothing is, if `size` exceeds urban_nav_core::largestPiece(). Requires "zstd",
-/// "lz4" or "bz2".
+/// Decompresses frames of zstd or lz4, or a stream of bz2, to `size` bytes. Truncated or damaged data are decompressed
+/// up to the last complete block; not at all if `size` exceeds urban_nav_core::largestPiece(). Requires "zstd", "lz4"
+/// or "bz2".
 Inflated inflate(const std::string& compression, ByteView packed, std::size_t size);
 
 }  // namespace urban_nav_input

@@ -16,7 +16,7 @@ namespace urban_nav_input {
 namespace {
 
 constexpr std::size_t kMostMapped = std::size_t{64} << 20U;  // bytes
-constexpr std::size_t kAround = std::size_t{64} << 10U;      // bytes that Linux maps around one that is read
+constexpr std::size_t kAround = std::size_t{64} << 10U;      // bytes mapped by Linux around an accessed one
 
 [[noreturn]] void fail(const std::string& path, int error) {
   throw urban_nav_core::DataError(path, std::string("cannot be read: ") + std::strerror(error), "");
@@ -49,7 +49,7 @@ void MappedFile::countRead(std::size_t size) {
   read_ += size + kAround;
   if (read_ < kMostMapped || bytes_.size == 0) return;
   read_ = 0;
-  madvise(const_cast<std::uint8_t*>(bytes_.data), bytes_.size, MADV_DONTNEED);  // of a file: nothing is lost
+  madvise(const_cast<std::uint8_t*>(bytes_.data), bytes_.size, MADV_DONTNEED);  // pages of a file can be read again
 }
 
 }  // namespace urban_nav_input

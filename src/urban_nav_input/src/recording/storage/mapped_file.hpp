@@ -7,7 +7,7 @@
 
 namespace urban_nav_input {
 
-/// A file as memory, read by the system where it is used; the file is never written. Thread-safe.
+/// A read-only memory-mapped file. Thread-safe.
 class MappedFile {
  public:
   /// Throws DataError naming the file if it cannot be read.
@@ -17,8 +17,8 @@ class MappedFile {
   MappedFile& operator=(const MappedFile&) = delete;
 
   ByteView bytes() const { return bytes_; }
-  /// Counts bytes that are read, and returns the pages to the system once they are many: a long recording would count
-  /// as memory of the process as a whole. Views stay valid: what is used again is read again. Not thread-safe.
+  /// Counts read bytes, and returns pages to the system when there are many, so that a long recording does not count as
+  /// memory of the process. Views stay valid: pages are read again on access. Not thread-safe.
   void countRead(std::size_t size);
 
  private:

@@ -12,16 +12,16 @@
 
 namespace urban_nav_input {
 
-/// The chunks of an MCAP file, or of a bag, without compression; those used last are kept. Not thread-safe.
+/// LRU cache of the decompressed chunks of an MCAP file or a bag. Not thread-safe.
 class McapChunkCache {
  public:
   explicit McapChunkCache(const std::vector<McapChunk>& chunks) : chunks_(chunks), states_(chunks.size()) {}
 
-  /// Returns the records of a chunk, valid until the next call; no data if it is damaged. A checksum is compared once.
+  /// Returns the records of a chunk, valid until the next call; no data if it is damaged. Checks each checksum once.
   ByteView records(std::size_t chunk);
-  /// Returns how often a chunk was decompressed.
+  /// Returns the number of decompressions.
   std::uint64_t inflated() const { return inflated_; }
-  /// Returns what is wrong with chunks that were asked for.
+  /// Returns the defects of requested chunks.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
@@ -32,14 +32,14 @@ class McapChunkCache {
   };
 
   ByteView inflateChunk(std::size_t chunk);
-  /// Forgets chunks that end before a time, ns: messages in order of receipt do not return to them, and the next one is
-  /// written to memory that is still in the processor's cache.
+  /// Drops chunks that end before a time, ns, which are not needed again when reading in order of receipt; the next one
+  /// reuses their memory, which is still in the processor cache.
   void dropEarlier(std::uint64_t start);
   void makeRoom();
 
   const std::vector<McapChunk>& chunks_;
   std::vector<State> states_;
-  std::list<Kept> kept_;  // the one used last first
+  std::list<Kept> kept_;  // most recently used first
   std::size_t kept_bytes_ = 0;
   std::uint64_t inflated_ = 0;
   std::vector<std::string> warnings_;

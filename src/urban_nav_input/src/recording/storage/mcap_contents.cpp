@@ -21,7 +21,7 @@ void checkCompression(const std::string& path, const std::string& compression) {
                                     "none, lz4 or zstd");
 }
 
-/// Reads all records of a file one after another.
+/// Reads all records of a file in order.
 class McapScan {
  public:
   McapScan(std::string path, ByteView file) : path_(std::move(path)), file_(file) {}
@@ -74,7 +74,7 @@ class McapScan {
     }
   }
 
-  /// `is_cut`: the record goes on beyond the end of the file.
+  /// `is_cut`: the record is truncated by the end of the file.
   void visitChunk(const mcap::Record& record, bool is_cut) {
     std::optional<mcap::Chunk> chunk = mcap::parseChunk(record.content);
     if (!chunk) return warn(record, is_cut ? "is cut off" : "is damaged");

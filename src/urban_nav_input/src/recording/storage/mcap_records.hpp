@@ -36,21 +36,20 @@ constexpr std::size_t kFooterSize = kRecordHead + 20;  // bytes
 
 struct Record {
   Op op = Op::Header;
-  std::uint64_t begin = 0;  ///< place in the bytes that are walked
+  std::uint64_t begin = 0;  ///< position in the bytes
   ByteView content;
 };
 
-/// Records one after another. Not thread-safe.
+/// Iterates over records. Not thread-safe.
 class RecordWalk {
  public:
   explicit RecordWalk(ByteView bytes, std::uint64_t begin = 0) : bytes_(bytes), at_(begin) {}
 
-  /// Returns the next whole record; nullopt at the end, and where the next one is cut off.
+  /// Returns the next complete record; nullopt at the end, and if the next one is truncated.
   std::optional<Record> next();
   /// Returns the end of the last record.
   std::uint64_t at() const { return at_; }
-  /// Returns the record that begins here and is cut off, with what there is of it; nullopt if less than its head is
-  /// there.
+  /// Returns the truncated record at this position, with its available data; nullopt if its head is incomplete.
   std::optional<Record> cutRecord() const;
 
  private:
@@ -58,7 +57,7 @@ class RecordWalk {
   std::uint64_t at_;
 };
 
-/// Returns the profile that a header states, "ros1" or "ros2" as a rule; empty: none, or another kind of record.
+/// Returns the profile of a header, usually "ros1" or "ros2"; empty: none, or another kind of record.
 std::string parseProfile(const Record& header);
 
 struct Schema {
@@ -83,13 +82,13 @@ std::optional<Message> parseMessage(ByteView content);
 
 struct Chunk {
   std::uint64_t start = 0, end = 0;  ///< ns
-  std::uint64_t size = 0;            ///< without compression, bytes
-  std::uint32_t crc = 0;             ///< CRC of the records without compression; 0: not known
+  std::uint64_t size = 0;            ///< uncompressed, bytes
+  std::uint32_t crc = 0;             ///< CRC of the uncompressed records; 0: unknown
   std::string compression;
   std::uint64_t packed_size = 0;  ///< bytes
-  ByteView packed;                ///< fewer than packed_size where the file is cut off
+  ByteView packed;                ///< fewer than packed_size if the file is truncated
 };
-/// Returns the chunk of a whole record, or of one that is cut off after its head.
+/// Returns the chunk of a complete record, or of one truncated after its head.
 std::optional<Chunk> parseChunk(ByteView content);
 
 struct MessageIndex {
@@ -108,8 +107,8 @@ struct ChunkIndex {
 std::optional<ChunkIndex> parseChunkIndex(ByteView content);
 
 struct Footer {
-  std::uint64_t summary = 0, summary_offsets = 0;  ///< place in the file; 0: absent
-  std::uint32_t crc = 0;                           ///< CRC of the summary up to itself; 0: not known
+  std::uint64_t summary = 0, summary_offsets = 0;  ///< position in the file; 0: absent
+  std::uint32_t crc = 0;                           ///< CRC of the summary before this field; 0: unknown
 };
 std::optional<Footer> parseFooter(ByteView content);
 

@@ -14,7 +14,7 @@ namespace urban_nav_input {
 
 namespace {
 
-/// MCAP file. By its index, only chunks that hold messages that are read are decompressed.
+/// MCAP file. With an index, decompresses only the chunks of requested messages.
 class McapStorage : public Storage {
  public:
   explicit McapStorage(const std::string& path)

@@ -13,7 +13,7 @@ using mcap::Op;
 
 namespace {
 
-/// Returns the records of the summary with the right checksum.
+/// Returns the records of the summary; nullopt for a wrong checksum.
 std::optional<ByteView> findSummary(ByteView file) {
   const std::size_t tail = mcap::kFooterSize + mcap::kMagic.size();
   if (file.size < mcap::kMagic.size() + tail) return std::nullopt;
@@ -29,7 +29,7 @@ std::optional<ByteView> findSummary(ByteView file) {
   return ByteView{file.data + footer->summary, footer_begin - footer->summary};
 }
 
-/// Returns the number of messages that the indexes of a chunk name; nullopt if one of them is not there.
+/// Returns the number of messages in the indexes of a chunk; nullopt if an index is missing.
 std::optional<std::uint64_t> countIndexed(ByteView file, const McapChunk& chunk) {
   std::uint64_t count = 0;
   for (const auto& [channel, offset] : chunk.indexes) {
@@ -50,8 +50,8 @@ std::optional<McapChunk> findChunk(ByteView file, const mcap::ChunkIndex& index)
   return McapChunk{index.offset, std::move(*chunk), index.indexes};
 }
 
-/// Returns whether the indexes of each chunk are between it and the next one. Where chunks share them, a small file
-/// could name the same messages millions of times.
+/// Returns whether the indexes of each chunk are between it and the next one. With shared indexes, a small file could
+/// refer to the same messages millions of times.
 bool isApart(const std::vector<McapChunk>& chunks, std::uint64_t file_size) {
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     const std::uint64_t end = i + 1 < chunks.size() ? chunks[i + 1].begin : file_size;
@@ -87,7 +87,7 @@ std::optional<McapContents> readMcapSummary(ByteView file) {
       contents.chunks.push_back(std::move(*chunk));
     }
   }
-  // Without statistics, messages outside of chunks would not be noticed.
+  // Without statistics, messages outside of chunks would be missed.
   if (!statistics || statistics->messages != messages || statistics->channels != contents.channels.size())
     return std::nullopt;
   for (const McapChunk& chunk : contents.chunks)

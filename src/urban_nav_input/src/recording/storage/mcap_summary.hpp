@@ -7,8 +7,8 @@
 
 namespace urban_nav_input {
 
-/// Returns the contents of an MCAP file by its summary; nullopt if it has none, if the summary's checksum is wrong, or
-/// if its index does not name all messages.
+/// Returns the contents of an MCAP file by its summary; nullopt without a summary, for a wrong checksum, or if
+/// its index is incomplete.
 std::optional<McapContents> readMcapSummary(ByteView file);
 
 }  // namespace urban_nav_input

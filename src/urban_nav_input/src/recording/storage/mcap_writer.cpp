@@ -21,7 +21,7 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr std::size_t kChunkBytes = 1U << 20U;  // records after which a chunk is closed
+constexpr std::size_t kChunkBytes = 1U << 20U;  // size of records at which a chunk is closed
 constexpr int kLevel = 3;                       // the default of zstd
 constexpr std::size_t kMostChannels = 65535;
 
@@ -146,7 +146,7 @@ class McapWriter::Impl {
     chunk_times_.reset();
   }
 
-  /// Returns the places of the index by channel.
+  /// Writes the indexes; returns their positions by channel.
   std::map<std::uint16_t, std::uint64_t> writeIndexes() {
     std::map<std::uint16_t, std::uint64_t> places;
     for (const auto& [channel, entries] : index_) {
@@ -207,7 +207,7 @@ class McapWriter::Impl {
   std::map<std::tuple<std::string, std::string, std::string>, std::uint16_t> schemas_;
   std::vector<ChannelState> channels_;
   ByteWriter schema_records_, channel_records_, chunk_indexes_;  // for the summary
-  ByteWriter chunk_;                                             // records of the chunk that is being filled
+  ByteWriter chunk_;                                             // records of the current chunk
   std::map<std::uint16_t, ByteWriter> index_;                    // for this chunk, by channel
   Times chunk_times_, all_times_;                                // ns
   std::uint32_t chunks_ = 0, data_crc_ = 0;

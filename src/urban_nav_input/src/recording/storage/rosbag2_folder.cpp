@@ -17,7 +17,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-/// Folder of rosbag2: the files that metadata.yaml names; without it, the only recording in the folder.
+/// Folder of rosbag2: the files listed in metadata.yaml; without it, the only recording in the folder.
 class Rosbag2Folder : public Storage {
  public:
   explicit Rosbag2Folder(const std::string& path) {
@@ -77,7 +77,7 @@ class Rosbag2Folder : public Storage {
     std::string missing;
     for (const std::string& name : metadata.files) {
       fs::path path = folder / name;
-      if (!fs::exists(path)) path = folder / fs::path(name).filename();  // as Eloquent named them
+      if (!fs::exists(path)) path = folder / fs::path(name).filename();  // as written by Eloquent
       if (!fs::exists(path)) {
         missing += (missing.empty() ? "" : ", ") + name;
         continue;

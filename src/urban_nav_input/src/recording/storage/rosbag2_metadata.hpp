@@ -14,7 +14,7 @@ struct Rosbag2Metadata {
   std::string compression, compression_mode;     ///< "zstd" and "FILE" or "MESSAGE"; empty: none
 };
 
-/// Reads metadata.yaml of any version from Foxy on. Throws UserError naming the file and what is wrong in it.
+/// Reads metadata.yaml of any version from Foxy on. Throws UserError naming the file and its defect.
 Rosbag2Metadata readRosbag2Metadata(const std::string& path);
 
 }  // namespace urban_nav_input

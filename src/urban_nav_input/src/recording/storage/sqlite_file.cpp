@@ -34,8 +34,7 @@ std::uint64_t bigEndian(const std::string& bytes, std::size_t at) {
   return number;
 }
 
-/// Returns the size that the header of a database states (sqlite.org/fileformat.html, section 1.3), bytes; 0 if it
-/// states none.
+/// Returns the size in the header of a database (sqlite.org/fileformat.html, section 1.3), bytes; 0 if not stated.
 std::uint64_t statedSize(const std::string& path) {
   constexpr std::size_t kHeader = 100, kPageSize = 16, kChanges = 24, kPages = 28, kChangesOfPages = 92;  // bytes
   std::string header(kHeader, '\0');
@@ -66,8 +65,7 @@ SqliteFile::SqliteFile(const std::string& path) : path_(path), database_(nullptr
 }
 
 void SqliteFile::open(bool with_wal) {
-  // Immutable: neither locks nor -wal and -shm. A -wal is read without locks and, in exclusive mode, without shared
-  // memory, which would be another file.
+  // Immutable: no locks, -wal or -shm. A -wal is read without locks and, in exclusive mode, without a -shm file.
   const std::string uri = toUri(path_) + (with_wal ? "?mode=ro" : "?mode=ro&immutable=1");
   sqlite3* opened = nullptr;
   const int status = sqlite3_open_v2(uri.c_str(), &opened, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX,
@@ -80,8 +78,7 @@ void SqliteFile::open(bool with_wal) {
     sqlite3_db_config(opened, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
     sqlite3_exec(opened, "PRAGMA locking_mode=EXCLUSIVE", nullptr, nullptr, nullptr);
   }
-  // A file that is shorter than its header states is opened all the same; nothing is written whatever the schema
-  // allows.
+  // Also opens a file shorter than stated in its header; nothing is written with this pragma.
   sqlite3_exec(opened, "PRAGMA writable_schema=ON", nullptr, nullptr, nullptr);
   constexpr int kLargestMapping = 0x7fff0000;  // bytes, which SQLite limits anyway
   sqlite3_exec(opened, ("PRAGMA mmap_size=" + std::to_string(kLargestMapping)).c_str(), nullptr, nullptr, nullptr);

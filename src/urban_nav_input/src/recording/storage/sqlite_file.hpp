@@ -12,22 +12,21 @@ struct sqlite3_stmt;
 
 namespace urban_nav_input {
 
-/// SQLite database that is only read: neither it nor its folder is changed, whatever its journal mode; what its -wal
-/// holds is read too. It is not locked, so a program that writes it at the same time is not waited for. Throws
-/// DataError naming the file. Not thread-safe.
+/// SQLite database opened read-only: neither it nor its folder is changed in any journal mode; its -wal is read too.
+/// Does not lock it, hence does not wait for concurrent writers. Throws DataError naming the file. Not thread-safe.
 class SqliteFile {
  public:
   explicit SqliteFile(const std::string& path);
 
-  /// Returns whether there is a table of this name; false also if the file is no database.
+  /// Returns whether there is a table of this name; false also if the file is not a database.
   bool hasTable(const std::string& name);
   const std::string& path() const { return path_; }
-  /// Returns whether there is a -wal that cannot be read, so that what it holds is missing.
+  /// Returns whether there is an unreadable -wal, whose content is missing.
   bool isWalIgnored() const { return is_wal_ignored_; }
-  /// Returns where the file is cut off, by the size that its header states; empty if it is whole.
+  /// Returns where the file is truncated, by the size in its header; empty if it is complete.
   std::string cut() const;
 
-  /// Statement, whose rows come one after another.
+  /// Statement with iteration over its rows.
   class Query {
    public:
     Query(SqliteFile& file, const std::string& sql);

@@ -14,8 +14,8 @@
 
 namespace urban_nav_input {
 
-/// One file or folder of a recording, open for reading: what is in it by connection, and its messages in any order.
-/// Memory: an entry for each message of the connections that were asked for, and the chunks in use. Not thread-safe.
+/// One file or folder of a recording, open for reading, with access to its connections and to messages in any order.
+/// Memory: an entry for each message of the requested connections, and the chunks in use. Not thread-safe.
 class Storage {
  public:
   Storage() = default;
@@ -25,36 +25,35 @@ class Storage {
 
   /// Returns the kind of storage: "bag", "mcap", "db3", "rosbag2".
   virtual const char* kind() const = 0;
-  /// Returns what the file is, for messages: "a ROS 1 bag", "MCAP, profile ros1".
+  /// Returns a description of the file for the user: "a ROS 1 bag", "MCAP, profile ros1".
   virtual std::string description() const { return kind(); }
   /// Returns the connections in the order of the file.
   virtual const std::vector<Connection>& connections() const = 0;
-  /// Returns the messages of a connection by receipt, those of equal receipt as they lie in the file.
+  /// Returns the messages of a connection by receipt, then by position in the file.
   virtual const std::vector<MessageEntry>& index(std::size_t connection) = 0;
-  /// Returns the bytes of a message as they are encoded, valid until the next call; no data if they are damaged, which
-  /// is counted in warnings(). Throws DataError if the file cannot be read on.
+  /// Returns the encoded bytes of a message, valid until the next call; no data if they are damaged, which is reported
+  /// by warnings(). Throws DataError if the file becomes unreadable.
   virtual ByteView read(std::size_t connection, const MessageEntry& entry) = 0;
-  /// Returns how often a chunk was decompressed to read messages.
+  /// Returns the number of decompressions of chunks.
   virtual std::uint64_t chunksInflated() const { return 0; }
-  /// Returns what is missing or damaged, and where, as far as it was met.
+  /// Returns the defects found so far, with their positions.
   virtual std::vector<std::string> warnings() const { return {}; }
 };
 
-/// Opens a recording, whose kind is recognised by its content. Throws UserError for what is no recording, or of a kind
-/// that is not understood; DataError for one that cannot be read.
+/// Opens a recording, whose kind is determined by its content. Throws UserError for a file that is not a recording or
+/// of an unsupported kind; DataError for an unreadable one.
 std::unique_ptr<Storage> openStorage(const std::string& path);
 
 std::unique_ptr<Storage> openBagStorage(const std::string& path);
-/// Opens a bag by its index, or without it where it is not consistent. Throws like openScannedBag(). Requires that the
-/// file begins as bags of version 2.0 do.
+/// Opens a bag by its index, or without it if it is inconsistent. Throws like openScannedBag(). Requires the magic
+/// bytes of version 2.0.
 std::unique_ptr<Storage> openBagRecords(const std::string& path);
-/// Opens a bag without its index: one that was cut off, is damaged, or that its recorder did not finish. Throws
-/// DataError if no message is whole.
+/// Opens a bag without its index: a truncated, damaged or unfinished one. Throws DataError if no message is intact.
 std::unique_ptr<Storage> openScannedBag(const std::string& path);
 std::unique_ptr<Storage> openMcapStorage(const std::string& path);
 std::unique_ptr<Storage> openDb3Storage(const std::string& path);
 std::unique_ptr<Storage> openRosbag2Folder(const std::string& path);
-/// Opens a file that zstd compressed, from a temporary file.
+/// Opens a recording compressed by zstd, through a temporary file.
 std::unique_ptr<Storage> openUnpackedStorage(const std::string& path);
 
 /// Returns whether an SQLite database has the tables of rosbag2.

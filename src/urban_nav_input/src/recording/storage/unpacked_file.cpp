@@ -21,15 +21,15 @@ namespace {
 constexpr std::uint64_t kLeastRoom = std::uint64_t{64} << 20U,
                         kMostGain = 1000;  // bytes, and times the compressed file
 
-/// Decompresses frame after frame; `write` takes bytes and returns whether more are wanted. Returns whether the input
-/// ends with the end of a frame.
+/// Decompresses all frames; `write` receives bytes and returns whether to continue. Returns whether the input ends with
+/// the end of a frame.
 template <typename Write>
 bool inflateAll(ByteView packed, const Write& write) {
   const std::unique_ptr<ZSTD_DCtx, std::size_t (*)(ZSTD_DCtx*)> context(ZSTD_createDCtx(), ZSTD_freeDCtx);
   std::vector<char> block(ZSTD_DStreamOutSize());
   ZSTD_inBuffer in{packed.data, packed.size, 0};
   std::size_t hint = 1;
-  bool is_full = false;  // more of what was read may be waiting
+  bool is_full = false;  // there may be more output for the input
   while (in.pos < in.size || is_full) {
     ZSTD_outBuffer out{block.data(), block.size(), 0};
     const std::size_t read = in.pos;
@@ -69,7 +69,7 @@ UnpackedFile::UnpackedFile(const std::string& path) {
                                     "room in TMPDIR");
   };
   if (descriptor < 0) fail();
-  // Recordings shrink to a fifth as a rule, and to a hundredth where nothing moves.
+  // Recordings usually compress to a fifth, and to a hundredth without motion.
   std::uint64_t room = kLeastRoom + kMostGain * std::uint64_t{file.bytes().size};
   is_whole_ = inflateAll(file.bytes(), [&](const char* bytes, std::size_t count) {
     if (count > room) {

@@ -7,14 +7,14 @@
 
 namespace urban_nav_input {
 
-/// Returns the first bytes of a file that zstd compressed, at most `size`; fewer if it is damaged or shorter.
+/// Returns the first decompressed bytes of a zstd file, at most `size`; fewer if it is damaged or shorter.
 std::string peekZstdFile(const std::string& path, std::size_t size);
 
-/// File that zstd compressed, decompressed to a temporary one (in TMPDIR), which is removed with this object.
+/// A zstd file decompressed to a temporary one (in TMPDIR), which is removed with this object.
 class UnpackedFile {
  public:
-  /// Throws DataError naming the file if it cannot be read or written. A file that is cut off or damaged is
-  /// decompressed as far as it goes.
+  /// Throws DataError naming the file if it cannot be read or written. A truncated or damaged file is
+  /// decompressed up to the damage.
   explicit UnpackedFile(const std::string& path);
   ~UnpackedFile();
   UnpackedFile(const UnpackedFile&) = delete;

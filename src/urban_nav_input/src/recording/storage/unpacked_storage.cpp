@@ -10,7 +10,7 @@ namespace urban_nav_input {
 
 namespace {
 
-/// Recording that was compressed as a file (compression_mode FILE of rosbag2).
+/// Recording compressed as a file (compression_mode FILE of rosbag2).
 class UnpackedStorage : public Storage {
  public:
   explicit UnpackedStorage(const std::string& path) : file_(path) {
