@@ -196,6 +196,15 @@ void f(const int x) {
         self.assertEqual(len(breaches(lint.nodelet_lines, **{path: "\n" * (most - 50)})), 1, "a limit above today's number")
 
 
+class Links(unittest.TestCase):
+    def test_links_lead_to_files_and_headings(self):
+        page = "# A `b` page\n\n## How good, it is\n"
+        text = "[a](docs/page.md) [b](docs/page.md#how-good-it-is) [c](#top) [d](docs) [e](https://b.c/d)\n# Top\n"
+        self.assertEqual(breaches(lint.broken_links, README_md=text, docs__page_md=page), [])
+        self.assertEqual(breaches(lint.broken_links, README_md="[a](docs/none.md)\n```\n[b](c.md)\n```\n[d](docs/page.md#how-good)\n", docs__page_md=page),
+                         ["README.md: docs/none.md: there is no such file", "README.md: docs/page.md#how-good: there is no such heading"])
+
+
 class Versions(unittest.TestCase):
     def test_packages_have_the_version_of_the_change_log(self):
         package = "<package><version>{}</version></package>"
