@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pluginlib/class_list_macros.hpp>
 
-#include <mutex>
-#include <optional>
 #include <tuple>
 
 #include "live/live_stereo.hpp"
 #include "live/nodelet_parameters.hpp"
 #include "publisher.hpp"
-#include "urban_nav_core/sequence/right_camera_turns.hpp"
 #include "urban_nav_ros/accelerometer.hpp"
+#include "urban_nav_ros/live_camera_turns.hpp"
 #include "urban_nav_ros/stage_nodelet.hpp"
 #include "urban_nav_ros/stereo_topics.hpp"
-#include "urban_nav_ros/turn_message.hpp"
 
 namespace dense_stereo {
 
@@ -52,7 +49,6 @@ class DenseStereoStage {
   void begin(const StereoSessions::Camera& camera);
   void process(urban_nav_ros::DecodedPair& pair);
   void refuse(const std::string& fault);
-  void subscribeTurns();
 
   Node& node_;
   NodeletParameters nodelet_;
@@ -61,8 +57,7 @@ class DenseStereoStage {
   std::unique_ptr<LiveStereo> stereo_;
   std::unique_ptr<StereoSessions> sessions_;
   std::unique_ptr<urban_nav_ros::Accelerometer> accelerometer_;
-  std::mutex mutex_;
-  std::optional<urban_nav_core::RightCameraTurns> turns_;  // guarded by mutex_; of the session's camera
+  urban_nav_ros::LiveCameraTurns turns_;
 };
 
 DenseStereoStage::DenseStereoStage(Node& node) : node_(node) {
@@ -81,24 +76,12 @@ DenseStereoStage::DenseStereoStage(Node& node) : node_(node) {
   options.timeout = kImageTimeout;
   options.queue = nodelet_.queue_size;
   subscribeStereo(node, options, nodelet_.compressed, urban_nav_core::MotionChoice());
-  subscribeTurns();
+  turns_.subscribe(node, nodelet_.queue_size);
   if (!nodelet_.gravity) return;
   urban_nav_ros::TopicOptions unmonitored;  // an IMU is optional
   unmonitored.is_monitored = false;
   node.subscribeInput<sensor_msgs::Imu>(urban_nav_ros::topics::kImu, unmonitored,
                                         [](const auto& message) { return Input(message); });
-}
-
-void DenseStereoStage::subscribeTurns() {
-  urban_nav_ros::TopicOptions options;  // odometry need not be there
-  options.queue = nodelet_.queue_size;
-  options.is_monitored = false;
-  node_.subscribe<urban_nav_msgs::VoStatistics>(
-      urban_nav_ros::topics::kVoStatistics, options, [this](const auto& message) {
-        const std::optional<urban_nav_core::StampedTurn> turn = urban_nav_ros::toStampedTurn(*message);
-        const std::lock_guard<std::mutex> lock(mutex_);
-        if (turn && turns_) turns_->add(*turn);
-      });
 }
 
 void DenseStereoStage::handle(Input& input) {
@@ -118,10 +101,7 @@ void DenseStereoStage::refuse(const std::string& fault) {
 
 void DenseStereoStage::begin(const StereoSessions::Camera& camera) {
   stereo_->begin(camera.camera, camera.T_base_left, camera.is_mounting_known);
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    turns_.emplace(camera.camera);
-  }
+  turns_.begin(camera.camera);
   publisher_->startSession(camera.frame, camera.camera, parameters_.disparities);
   node_.logInfo("session " + std::to_string(stereo_->sessions()) + ": " + camera.sentence());
 }
@@ -129,10 +109,7 @@ void DenseStereoStage::begin(const StereoSessions::Camera& camera) {
 void DenseStereoStage::process(urban_nav_ros::DecodedPair& pair) {
   for (const std::string& fault : pair.faults) node_.logWarning("image", fault);
   if (!nodelet_.always && !publisher_->isWanted()) return stereo_->skip();
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (turns_) turns_->correct(pair.assembled);
-  }
+  turns_.correct(pair.assembled);
   publisher_->publish(stereo_->process(pair.assembled.pair), pair.assembled.pair);
 }
 

@@ -17,7 +17,6 @@ namespace {
 
 constexpr TimeNs kReaderWait = 2'000'000;        // ns
 constexpr TimeNs kSnapshotPeriod = 100'000'000;  // ns, between updates of what the diagnostics show
-
 }  // namespace
 
 DriverNodelet::~DriverNodelet() { shutDown(); }
@@ -60,10 +59,8 @@ void DriverNodelet::run() {
     if (const TimeNs step = clock_.follow(); step != 0)
       NODELET_WARN("the host's clock stepped by %lld ms", static_cast<long long>(step / 1'000'000));
     for (const DriverEvent& event : driver_->takeEvents()) {
-      if (!event.warning) {
-        NODELET_INFO("%s", urban_nav_core::printable(event.text).c_str());
-        continue;
-      }
+      if (!event.warning) NODELET_INFO("%s", urban_nav_core::printable(event.text).c_str());
+      if (!event.warning) continue;
       NODELET_WARN("%s", urban_nav_core::printable(event.text).c_str());
       const std::lock_guard<std::mutex> guard(mutex_);
       last_warning_ = event.text;

@@ -43,8 +43,7 @@ void Publisher::startSession(const Frames& frames, double near_disparity_px) {
 
 void Publisher::publish(const Frame& frame, const urban_nav_core::OdometrySessionPtr& session,
                         const urban_nav_core::StereoPair& pair, double process_ms) {
-  // first: stages that take images with the pose of their frame need its turn of the right camera
-  publishFrame(frame, process_ms);
+  publishFrame(frame, process_ms);  // first: stages correct the images of a pose by its turn of the right camera
   if (frame.accepted) {
     publishOdometry(frame);
     if (urban_nav_ros::appendToPath(frame.stamp, frame.T_odom_base.pose, kPathSpacing, kPathPoints, drawn_path_))
@@ -57,8 +56,7 @@ void Publisher::publish(const Frame& frame, const urban_nav_core::OdometrySessio
 }
 
 void Publisher::publish(const Settled& settled, const urban_nav_core::OdometrySessionPtr& session) {
-  // The first pose of a session is the origin and has no previous pose.
-  if (settled.from_previous.from == settled.from_previous.to) return;
+  if (settled.from_previous.from == settled.from_previous.to) return;  // the first pose of a session
   relative_.publish(urban_nav_ros::toRelativePoseMessage({settled.from_previous, session}, frames_.base));
 }
 

@@ -328,7 +328,7 @@ class FrontEnd::Implementation {
       dropMisfits(match);
       measure(match);
     }
-    if (coarse.found) result_.disparity_step = disparity_step_meter_.measure(camera_, coarse.T_camera_odom, matches_);
+    if (coarse.found) result_.disparity_step = steps_.measure(camera_, coarse.T_camera_odom, matches_);
     starts_.assign({coarse.found ? coarse.T_camera_odom : T_predicted_odom});
     PoseEstimatorOptions options;
     options.slack_px = astray_ ? kAstraySlackPx : kFineSlackPx;
@@ -387,9 +387,7 @@ class FrontEnd::Implementation {
     result_.disparity_step = right_turn_.add(result_.disparity_step, pair.stamp);
   }
 
-  RigStep measureSteps() {
-    return {result_.disparity_step, disparity_step_meter_.measureRows(camera_, matches_, rows_.px())};
-  }
+  RigStep measureSteps() { return {result_.disparity_step, steps_.measureRows(camera_, matches_, rows_.px())}; }
 
   void measure(Match& match) {
     if (!subpixel_) roundToPixels(match);
@@ -463,7 +461,7 @@ class FrontEnd::Implementation {
   RotationTracker rotation_;
   int capacity_;
   PoseEstimator pose_estimator_;
-  DisparityStepMeter disparity_step_meter_;
+  DisparityStepMeter steps_;
   SearchRadius radius_;
   Tracks tracks_;
   NoiseScale noise_;

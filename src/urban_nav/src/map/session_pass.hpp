@@ -12,8 +12,8 @@ namespace urban_nav {
 
 /// One item of the reading pass.
 struct PassItem {
-  urban_nav_input::SourceItem& input;       ///< rectified pair, corrected by stage vo, motion, scans, faults of its data
-  const OdometryFrame* odometry = nullptr;   ///< of this frame, set by stage vo, which runs first
+  urban_nav_input::SourceItem& input;  ///< rectified pair, corrected by stage vo; motion, scans, faults of its data
+  const OdometryFrame* odometry = nullptr;  ///< of this frame, set by stage vo, which runs first
 };
 
 /// Data available at the end of an input.

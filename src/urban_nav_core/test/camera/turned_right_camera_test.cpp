@@ -14,13 +14,13 @@ namespace {
 StereoCamera turnedCamera() { return {{300.0, 300.0, 191.5, 143.5, 384, 288}, 0.12, 1.5}; }
 
 /// Grey level of the sky in a direction of the calibrated right camera.
-double greyOf(const Vector3d& ray) {
+double greyAlong(const Vector3d& ray) {
   const double x = ray.x() / ray.z(), y = ray.y() / ray.z();
   return 128.0 + 60.0 * std::sin(30.0 * x + 8.0 * y) + 50.0 * std::cos(20.0 * y - 5.0 * x);
 }
 
 /// Picture of a right camera that is turned by `turn`.
-std::vector<std::uint8_t> pictureOf(const StereoCamera& camera, const Vector3d& turn) {
+std::vector<std::uint8_t> renderSky(const StereoCamera& camera, const Vector3d& turn) {
   const Matrix3d R_calibrated_turned =
       Eigen::AngleAxisd(turn.norm(), turn.isZero() ? Vector3d::UnitX() : Vector3d(turn.normalized()))
           .toRotationMatrix();
@@ -29,16 +29,16 @@ std::vector<std::uint8_t> pictureOf(const StereoCamera& camera, const Vector3d& 
     for (int u = 0; u < camera.left.width; ++u) {
       const Vector3d ray((u - (camera.left.cx - camera.disparity_offset)) / camera.left.fx,
                          (v - camera.left.cy) / camera.left.fy, 1.0);
-      pixels.push_back(static_cast<std::uint8_t>(std::lround(greyOf(R_calibrated_turned * ray))));
+      pixels.push_back(static_cast<std::uint8_t>(std::lround(greyAlong(R_calibrated_turned * ray))));
     }
   return pixels;
 }
 
 TEST(TurnedRightCamera, ShowsWhatTheCalibratedCameraWouldSee) {
   const StereoCamera camera = turnedCamera();
-  const std::vector<std::uint8_t> wanted = pictureOf(camera, Vector3d::Zero());
+  const std::vector<std::uint8_t> wanted = renderSky(camera, Vector3d::Zero());
   for (const Vector3d& turn : {Vector3d(0.0, 0.01, 0.0), Vector3d(-0.008, 0.0, 0.0), Vector3d(0.004, -0.006, 0.012)}) {
-    const std::vector<std::uint8_t> seen = pictureOf(camera, turn);
+    const std::vector<std::uint8_t> seen = renderSky(camera, turn);
     TurnedRightCamera right(camera);
     right.set(turn);
     std::vector<std::uint8_t> out;
@@ -56,7 +56,7 @@ TEST(TurnedRightCamera, ShowsWhatTheCalibratedCameraWouldSee) {
 
 TEST(TurnedRightCamera, PassesImagesUnchangedWithoutATurn) {
   const StereoCamera camera = turnedCamera();
-  const std::vector<std::uint8_t> seen = pictureOf(camera, Vector3d::Zero());
+  const std::vector<std::uint8_t> seen = renderSky(camera, Vector3d::Zero());
   std::vector<std::uint8_t> out;
   const ImageView image{seen.data(), camera.left.width, camera.left.height, camera.left.width};
   TurnedRightCamera right(camera);

@@ -13,7 +13,7 @@
 namespace urban_nav_core {
 namespace {
 
-constexpr StampNs kSecond = 1'000'000'000;
+constexpr StampNs kDetectorSecond = 1'000'000'000;
 
 /// Measurements of a constant, with different standard deviations.
 class Drive {
@@ -21,7 +21,7 @@ class Drive {
   explicit Drive(unsigned seed) : random_(seed) {}
   ConstantMeasurement measure(double value) {
     ConstantMeasurement result;
-    result.interval = {k_ * kSecond, (k_ + 1) * kSecond};
+    result.interval = {k_ * kDetectorSecond, (k_ + 1) * kDetectorSecond};
     result.sigma = 0.05 * (1.0 + static_cast<double>(k_ % 3));
     result.value = value + result.sigma * normal_(random_);
     ++k_;
@@ -67,7 +67,7 @@ TEST(ChangeDetector, FindsASmallChangeWithinTheStatedDelay) {
     ChangeDetector detector(1e-6, 1000);
     std::int64_t k = 0;
     const auto add = [&](double value) {
-      ConstantMeasurement result{{k * kSecond, (k + 1) * kSecond}, value + normal(random), 1.0};
+      ConstantMeasurement result{{k * kDetectorSecond, (k + 1) * kDetectorSecond}, value + normal(random), 1.0};
       ++k;
       return detector.add(result);
     };
@@ -77,7 +77,7 @@ TEST(ChangeDetector, FindsASmallChangeWithinTheStatedDelay) {
     delay += needed;
     const std::vector<ChangeDetector::Segment> segments = detector.segments();
     ASSERT_EQ(segments.size(), 2U);
-    const double error = static_cast<double>(segments[1].interval.from / kSecond) - 400.0;
+    const double error = static_cast<double>(segments[1].interval.from / kDetectorSecond) - 400.0;
     squares += error * error;
     EXPECT_EQ(segments[0].interval.to, segments[1].interval.from);
   }
@@ -93,7 +93,7 @@ TEST(ChangeDetector, EstimatesTheConstantBeforeAndAfter) {
   for (int k = 0; k < 30; ++k) detector.add(drive.measure(-1.2));
   const std::vector<ChangeDetector::Segment> segments = detector.segments();
   ASSERT_EQ(segments.size(), 2U);
-  EXPECT_EQ(segments[1].interval.from, 30 * kSecond);
+  EXPECT_EQ(segments[1].interval.from, 30 * kDetectorSecond);
   EXPECT_EQ(detector.measurements(), 60);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(segments[i].measurements, 30);
@@ -126,10 +126,10 @@ TEST(ChangeDetector, IgnoresWhatIsNoMeasurement) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const auto& [value, sigma] : std::vector<std::pair<double, double>>{
            {nan, 1.0}, {0.0, nan}, {0.0, 0.0}, {0.0, -1.0}, {0.0, std::numeric_limits<double>::infinity()}})
-    EXPECT_FALSE(detector.add({{0, kSecond}, value, sigma}));
+    EXPECT_FALSE(detector.add({{0, kDetectorSecond}, value, sigma}));
   EXPECT_EQ(detector.measurements(), 0);
   EXPECT_TRUE(detector.segments().empty());
-  EXPECT_FALSE(detector.add({{0, kSecond}, 1e6, 1e-6}));  // the first one defines the constant
+  EXPECT_FALSE(detector.add({{0, kDetectorSecond}, 1e6, 1e-6}));  // the first one defines the constant
   EXPECT_EQ(detector.segments().front().mean, 1e6);
 }
 

@@ -20,8 +20,8 @@ namespace urban_nav_ros {
 /// Passes the messages of subscribeRobot() to a core that builds keyframes and local clouds: stereo pairs with the
 /// mounted camera, scans with the mounting of their lasers, both poses of odometry. Used by one thread.
 ///
-/// Requires of Sink: setCamera(optional<MountedCamera>), addPair, addTurn, restartImages, addScan, unplacedLasers, setLaser,
-/// addOdometry and addStep. It must outlive this object.
+/// Requires of Sink: setCamera(optional<MountedCamera>), addPair, addTurn, restartImages, addScan, unplacedLasers,
+/// setLaser, addOdometry and addStep. It must outlive this object.
 template <typename Sink, typename MountedCamera>
 class RobotInputs {
  public:
