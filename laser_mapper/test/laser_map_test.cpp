@@ -136,7 +136,7 @@ TEST_F(LaserMapTest, OnlyChunksThatMovedAreRenderedAgain) {
   EXPECT_GT(statistics.chunks_rendered, 0U);
   EXPECT_LT(statistics.chunks_rendered, statistics.chunks);
   forgetMap();
-  EXPECT_TRUE(bytes(mapPoints(moved, &statistics)) == partly) << "as if it had been rendered anew";
+  EXPECT_TRUE(bytes(mapPoints(moved, &statistics)) == partly) << "equal to a new rendering";
 }
 
 TEST_F(LaserMapTest, BeamsWithoutAPoseAreCountedAndLeftOut) {

@@ -93,7 +93,7 @@ TEST_F(StereoFill, FillsTheFloorThatNoLaserMeasured) {
   ASSERT_GT(errors.size(), 3000U);
   std::sort(errors.begin(), errors.end());
   EXPECT_LT(errors[errors.size() * 95 / 100], 0.02);
-  EXPECT_LT(errors.back(), 0.1) << "uncertain points are left out";
+  EXPECT_LT(errors.back(), 0.1) << "uncertain points are omitted";
 }
 
 TEST_F(StereoFill, AddsNothingWhereALaserMeasured) {

@@ -41,9 +41,9 @@ TEST(ClosureSelector, TriesStretchesThatLookAlikeAFewTimesOnly) {
   ClosureSelector selector(parameters);
   int proposed = 0;
   for (int i = 0; i < 40; ++i) proposed += selector.select({0, 1.0}, {1, 0.1 * i}, 0.1 + 0.001 * (i % 3)) ? 1 : 0;
-  EXPECT_EQ(proposed, 3) << "unlikely one by one, and together";
+  EXPECT_EQ(proposed, 3) << "probabilities are small singly and in sum";
   EXPECT_FALSE(selector.select({0, 1.0}, {1, 4.1}, 0.15));
-  EXPECT_TRUE(selector.select({0, 1.0}, {1, 4.2}, 0.3)) << "clearly likelier than those before";
+  EXPECT_TRUE(selector.select({0, 1.0}, {1, 4.2}, 0.3)) << "clearly more probable than all previous ones";
   EXPECT_FALSE(selector.select({0, 1.0}, {1, 4.3}, 0.3));
 }
 
@@ -53,8 +53,8 @@ TEST(ClosureSelector, StretchesWithoutAnythingKnownProposeLittle) {
   ClosureSelector selector(parameters);
   int proposed = 0;
   for (int i = 0; i < 40; ++i) proposed += selector.select({0, 37.0 * i}, {1, 0.1 * i}, 0.2) ? 1 : 0;
-  EXPECT_EQ(proposed, 3) << "another place each time, none of them likely";
-  EXPECT_TRUE(selector.select({0, 2000.0}, {1, 4.5}, 0.9)) << "likely ones are not limited by them";
+  EXPECT_EQ(proposed, 3) << "another place each time, all improbable";
+  EXPECT_TRUE(selector.select({0, 2000.0}, {1, 4.5}, 0.9)) << "probable ones are not limited by them";
   EXPECT_TRUE(selector.select({0, 2100.0}, {1, 5.5}, 0.2)) << "another stretch";
 }
 

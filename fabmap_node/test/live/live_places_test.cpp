@@ -113,7 +113,7 @@ TEST_F(LivePlacesTest, ARecordingThatIsPlayedAgainGivesTheSameContent) {
     const auto places = begin(path_);
     drive(*places, kMonday, 0, 1);
     EXPECT_TRUE(observe(*places, kMonday + kObservationPeriod, 1).belief.likeliest.empty())
-        << "it was observed in the future";
+        << "places observed later are not candidates";
     drive(*places, kMonday + 2 * kObservationPeriod, 2, 6);
   }
   EXPECT_EQ(sessions(path_).size(), 1u);
@@ -225,7 +225,7 @@ TEST_F(LivePlacesTest, ResetForgetsPlacesButTheStoreKeepsThem) {
   drive(*places, kMonday, 4, 5);
   const PlaceOutput output = observe(*places, kMonday + 60 * kObservationPeriod, 2);
   ASSERT_FALSE(output.belief.likeliest.empty());
-  EXPECT_EQ(output.belief.likeliest[0].at.stamp, kMonday) << "the only one that is left, of another look";
+  EXPECT_EQ(output.belief.likeliest[0].at.stamp, kMonday) << "the only one left, observed differently";
   EXPECT_TRUE(output.belief.likeliest[0].at.session.empty());
   places->save(path_);
   ASSERT_EQ(sessions(path_).size(), 2u);
@@ -242,7 +242,7 @@ TEST_F(LivePlacesTest, SavesWhatWasLoadedBesideWhatIsStored) {
   ASSERT_EQ(stored.size(), 2u);
   EXPECT_EQ(rows(saved, stored[0].id).size(), 3u);
   EXPECT_EQ(rows(saved, stored[1].id).size(), 2u);
-  EXPECT_EQ(sessions(path_).size(), 1u) << "the store has what it recorded";
+  EXPECT_EQ(sessions(path_).size(), 1u) << "the store has the recorded places";
 }
 
 TEST_F(LivePlacesTest, PlacesThatAStoreNoLongerHasAreReported) {

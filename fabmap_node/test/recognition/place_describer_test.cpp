@@ -78,7 +78,7 @@ TEST(CompactLook, KeepsDescriptorsAndDirections) {
         0.99F);
     EXPECT_NEAR((look.directions[k] - read.directions[k]).norm(), 0.0F, 2e-5F);
   }
-  EXPECT_EQ(packLook(read), bytes) << "reading and writing again changes nothing";
+  EXPECT_EQ(packLook(read), bytes) << "reading and writing are inverse";
   EXPECT_GT(secondLook(look, read).share, 0.9);
 }
 

@@ -198,7 +198,7 @@ TEST_F(FabmapNodelet, ForgetsOnResetAndContinuesWithFourCameras) {
 TEST_F(FabmapNodelet, RecognisesPlacesOfASessionThatWasSaved) {
   const TemporaryFolder folder;
   const std::string path = folder.file("places.db");
-  EXPECT_FALSE(Head::command("save", path).success) << "there are no places yet";
+  EXPECT_FALSE(Head::command("save", path).success) << "no places yet";
   for (unsigned place = 20; place < 25; ++place) ASSERT_TRUE(head.observe(place, kFirstStamp + place * kHalfSecond));
   ASSERT_TRUE(Head::until([&] { return head.beliefs.size() == 5; }));
   const auto saved = Head::command("save", path);
@@ -229,8 +229,8 @@ TEST_F(FabmapNodelet, DrawsItsBeliefAlongThePathOfOdometry) {
   const auto match = std::find_if(head.markers.begin(), head.markers.end(), isMatch);
   EXPECT_EQ(match->header.frame_id, "odom");
   ASSERT_EQ(match->points.size(), 2U);
-  EXPECT_DOUBLE_EQ(match->points[0].x, 20.0) << "where the robot is";
-  EXPECT_DOUBLE_EQ(match->points[1].x, 3.0) << "where it was when it saw this before";
+  EXPECT_DOUBLE_EQ(match->points[0].x, 20.0) << "current pose";
+  EXPECT_DOUBLE_EQ(match->points[1].x, 3.0) << "pose of the earlier observation";
   std::size_t beliefs = 0;
   for (const auto& marker : head.markers)
     if (marker.ns == "KNOWN" || marker.ns == "UNSURE" || marker.ns == "NEW") beliefs += marker.points.size();
@@ -248,7 +248,7 @@ TEST_F(FabmapNodelet, KnowsPlacesThatWereCommittedBeforeItsProcessWasKilled) {
   ASSERT_GT(process, 0);
   ASSERT_EQ(kill(process, SIGKILL), 0);
   ASSERT_TRUE(head.disconnected());
-  ASSERT_TRUE(head.connected()) << "it is started again";
+  ASSERT_TRUE(head.connected()) << "restarted";
   head.beliefs.clear();
   ASSERT_TRUE(head.observe(32, kFirstStamp + 30'000 * kHalfSecond));
   ASSERT_FALSE(head.beliefs[0].places.empty());

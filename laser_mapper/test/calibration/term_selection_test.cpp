@@ -38,7 +38,7 @@ TEST(TermSelection, TermsThatOnlyTheirSumSaysAnythingAboutAreNotDroppedTogether)
   estimate.mean(0) = estimate.mean(3) = 0.02;
   estimate.conditional_sigma = information.diagonal().cwiseSqrt().cwiseInverse();
   const std::vector<bool> chosen = significantTerms(estimate);
-  EXPECT_NE(chosen[0], chosen[3]) << "one of them explains what was measured";
+  EXPECT_NE(chosen[0], chosen[3]) << "one of them explains the measurements";
 }
 
 TEST(TermSelection, NamesWhatIsNotConstrained) {

@@ -139,7 +139,7 @@ TEST(ViewCalibration, ATurnedHeadIsFoundAboutEachAxis) {
   const Pose corrected = found.headCorrection() * leftCamera();
   EXPECT_NEAR(angleBetween(corrected, Pose(urban_nav_core::expSo3(turn), Vector3d::Zero()) * leftCamera()), 0.0,
               0.1 * kHeadDegree);
-  EXPECT_LT(distanceBetween(corrected, leftCamera()), 0.02) << "it turns where it is";
+  EXPECT_LT(distanceBetween(corrected, leftCamera()), 0.02) << "rotation without translation";
 }
 
 TEST(ViewCalibration, DelayAndTurnAreToldFromEachOther) {

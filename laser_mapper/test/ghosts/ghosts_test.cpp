@@ -131,7 +131,7 @@ TEST_F(GhostTest, WhatStoodThereBothTimesStays) {
 TEST_F(GhostTest, FlagsFollowTheChunksAndDoNotDependOnThreads) {
   putScans(true, false);
   const Trajectory first = testing_room::driveThroughRoom(20.0), both = twoVisits();
-  EXPECT_EQ(makeMap(first).ghost_beams, 0U) << "one visit alone shows no ghosts";
+  EXPECT_EQ(makeMap(first).ghost_beams, 0U) << "ghosts cannot be found in a single visit";
   std::string later, anew;
   {
     const urban_nav_core::ThreadLimit limit(1);
@@ -144,8 +144,8 @@ TEST_F(GhostTest, FlagsFollowTheChunksAndDoNotDependOnThreads) {
     anew = makeMap(both).bytes;
   }
   EXPECT_TRUE(later == anew && later.size() > 1000);
-  EXPECT_TRUE(makeMap(both).bytes == anew) << "nothing has changed";
-  EXPECT_GT(makeMap(first).on_person, 100U) << "the visit that saw through is gone";
+  EXPECT_TRUE(makeMap(both).bytes == anew) << "unchanged";
+  EXPECT_GT(makeMap(first).on_person, 100U) << "the visit with beams through the point was removed";
 }
 
 TEST(ChunkBeams, TellWhatTheyPassedFromWhatTheyMet) {
@@ -158,7 +158,7 @@ TEST(ChunkBeams, TellWhatTheyPassedFromWhatTheyMet) {
   EXPECT_EQ(beams.look({-3.0, 6.02, 1.2}), Sight::Hit);
   EXPECT_EQ(beams.look({-3.0, 7.0, 1.2}), Sight::None) << "within the wall";
   EXPECT_EQ(beams.look({-3.0, -3.0, 1.2}), Sight::None) << "on the other side of the robot";
-  EXPECT_EQ(beams.look({3.0, 3.0, 1.2}), Sight::None) << "where it has not been";
+  EXPECT_EQ(beams.look({3.0, 3.0, 1.2}), Sight::None) << "where the person was not";
   for (double y = 1.5; y < 5.9; y += 0.1) EXPECT_EQ(beams.look({-3.0, y, 0.0}), Sight::Hit) << "floor at " << y;
   EXPECT_GT(beams.bytes(), 100'000U);
 }

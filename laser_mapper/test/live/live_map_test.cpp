@@ -93,7 +93,7 @@ TEST_F(LiveMapTest, PosesOfAnEarlierRoundAtTheSameTimesAreNotUsed) {
   place("first", 100.0);
   drive();
   place("first", 100.0);  // a batch of the graph at the end of the round
-  EXPECT_LT(median(map_.render(), T_odom_room_.inverse()), 0.003) << "nothing is known of the second round yet";
+  EXPECT_LT(median(map_.render(), T_odom_room_.inverse()), 0.003) << "no data of the second round yet";
   place("second", 0.0);
   announce("second");
   place("first", 100.0);
@@ -107,7 +107,7 @@ TEST_F(LiveMapTest, ASessionThatBeginsAgainForgetsTheOneBefore) {
   EXPECT_EQ(map_.counts().scans, 0U);
   EXPECT_TRUE(map_.render().empty());
   drive();
-  EXPECT_FALSE(map_.render().empty()) << "the laser is where it was";
+  EXPECT_FALSE(map_.render().empty()) << "the laser has not moved";
 }
 
 TEST_F(LiveMapTest, ScansOfALaserWithoutAPlaceAreCounted) {
@@ -173,7 +173,7 @@ TEST_F(LiveConstraintsTest, PlanesOfTwoPassesConstrainPosesOfTheGraphOnce) {
                     constraint);
   }
   EXPECT_LT(after, 0.1 * before);
-  EXPECT_TRUE(map_.takeConstraints().empty()) << "they have been taken";
+  EXPECT_TRUE(map_.takeConstraints().empty()) << "already returned";
   drive(truth_.size() - 100, truth_.size());
   for (const auto& constraint : map_.takeConstraints())
     EXPECT_GT(std::max(constraint.a.stamp, constraint.b.stamp), first.back().b.stamp - kPlaneGroupTime);
@@ -220,7 +220,7 @@ TEST_F(LiveMapTest, TilesAreTakenOnceUntilTheyChange) {
   EXPECT_EQ(pointsIn(first) + pointsIn(rest), all);
   EXPECT_TRUE(map_.takeChanged(1'000'000).empty());
   map_.render();
-  EXPECT_TRUE(map_.takeChanged(1'000'000).empty()) << "nothing has changed";
+  EXPECT_TRUE(map_.takeChanged(1'000'000).empty()) << "unchanged";
   map_.repeatAll();
   EXPECT_EQ(pointsIn(map_.takeChanged(1'000'000)), all);
   map_.clear();
@@ -238,7 +238,7 @@ TEST_F(LiveMapTest, IsSavedAsAFile) {
   EXPECT_EQ(urban_nav_core::readCloud(path).cloud.points.size(), points);
   std::filesystem::remove(path);
   EXPECT_THROW(map_.save("/no/such/folder/map.ply"), urban_nav_core::Error);
-  EXPECT_EQ(map_.measureQuality().walls().pairs, 0U) << "one pass alone";
+  EXPECT_EQ(map_.measureQuality().walls().pairs, 0U) << "a single pass";
 }
 
 }  // namespace

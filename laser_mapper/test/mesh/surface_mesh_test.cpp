@@ -57,7 +57,8 @@ TEST(SurfaceMesh, ASphereAcrossFourTilesIsClosedAndFacesOutwards) {
   const auto edges = edgesOf(mesh);
   for (const auto& [edge, count] : edges) {
     EXPECT_EQ(count, 1);
-    EXPECT_EQ(edges.count({edge.second, edge.first}), 1U) << "the triangle beside it goes round the other way";
+    EXPECT_EQ(edges.count({edge.second, edge.first}), 1U)
+        << "adjacent triangles traverse the edge in opposite directions";
   }
   const auto euler = static_cast<long>(mesh.vertices.size()) - static_cast<long>(edges.size() / 2) +
                      static_cast<long>(mesh.triangles.size());

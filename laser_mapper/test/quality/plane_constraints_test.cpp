@@ -116,7 +116,7 @@ TEST_F(PlaneConstraintTest, OneWallTellsNothingAlongItselfNorOfTheTurnAboutItsNo
   // Residual of the ground truth: zero in directions with information from the wall.
   const Vector6d error = errorOf(constraints[0]);
   EXPECT_LT(error.dot(information * error), 0.1);
-  EXPECT_GT(error.head<3>().norm(), 0.03) << "along the wall the map's own error stays";
+  EXPECT_GT(error.head<3>().norm(), 0.03) << "along the wall, the error of the map remains";
   // A motion of pose b along the wall has no residual.
   const Vector3d along = truth_[0].q().conjugate() * Vector3d::UnitY();
   Vector6d slide = Vector6d::Zero();
@@ -261,15 +261,15 @@ TEST(PlaneConstraintDrift, ErrorsAreThoseStatedWhereOdometryStatesItsDrift) {
   constexpr int kTrials = 200;
   const DriftErrors errors = meanErrors(kTrials, 1e-5, true);  // nothing but drift
   const double limit = 3.5 * std::sqrt(2.0 / kTrials);
-  EXPECT_NEAR(errors.nees / 5.0, 1.0, limit / std::sqrt(5.0)) << "rank 5: nothing is told along the path";
+  EXPECT_NEAR(errors.nees / 5.0, 1.0, limit / std::sqrt(5.0)) << "rank 5: no information along the path";
   EXPECT_NEAR(errors.pitch, 1.0, limit);
   EXPECT_GT(errors.pitch_sigma, 0.001);
-  EXPECT_LT(errors.pitch_sigma, 0.006) << "what the drift of both passes makes of 4 s";
+  EXPECT_LT(errors.pitch_sigma, 0.006) << "drift of both passes over 4 s";
 }
 
 TEST(PlaneConstraintDrift, NoiseOfTheLasersDoesNotExplainIt) {
   const DriftErrors errors = meanErrors(50, kBias, false);
-  EXPECT_LT(errors.pitch_sigma, 0.0014) << "less than a third of what drift makes of it, overlap of patches included";
+  EXPECT_LT(errors.pitch_sigma, 0.0014) << "less than a third of the drift, overlap of patches included";
   EXPECT_GT(errors.pitch, 6.0) << "where odometry states no drift";
 }
 

@@ -115,7 +115,7 @@ TEST(MapQuality, PointsOnAPlaceHaveItsDisplacementAndOthersNone) {
   const auto displacement = quality.displacementAt({4.0F, 3.04F, 1.5F});
   ASSERT_TRUE(displacement);
   EXPECT_NEAR(*displacement, 0.02F, 0.002F);
-  EXPECT_FALSE(quality.displacementAt({4.0F, 3.4F, 1.5F})) << "beside the wall";
+  EXPECT_FALSE(quality.displacementAt({4.0F, 3.4F, 1.5F})) << "off the wall";
   EXPECT_FALSE(quality.displacementAt({40.0F, 3.04F, 1.5F}));
 }
 

@@ -65,7 +65,7 @@ TEST(SharedBeamsTest, StretchesNearBothEndsOfAClosureShareItsBeams) {
   EXPECT_TRUE(isShared(7, 22)) << "28 to 32 m, of a cloud that ends at 30 m";
   EXPECT_FALSE(isShared(8, 20)) << "beyond the first cloud";
   EXPECT_FALSE(isShared(5, 6)) << "both in the first cloud";
-  EXPECT_FALSE(isShared(1, 12)) << "nowhere near";
+  EXPECT_FALSE(isShared(1, 12)) << "far from both";
   EXPECT_FALSE(discounted(SharedBeams({&trajectory}, {}, 10.0), constraintBetween(5, 20)).is_shared);
 }
 
@@ -78,7 +78,8 @@ TEST(SharedBeamsTest, AClosureTakesThePartOfItsInformationThatLiesOnTheStretch) 
   const urban_nav_core::Matrix6d taken = before.measured.information - after.measured.information;
   for (int i = 0; i < 3; ++i)
     EXPECT_NEAR(taken(i, i), 4.0 / 20.0 / (0.02 * 0.02), 1e-6) << "4 of the 20 m of the clouds";
-  EXPECT_TRUE(isApprox(after.measured, {Pose(), after.measured.information}, 0.0)) << "what was measured stays";
+  EXPECT_TRUE(isApprox(after.measured, {Pose(), after.measured.information}, 0.0))
+      << "existing measurements are unchanged";
 }
 
 TEST(SharedBeamsTest, ConstraintsTogetherLoseNoMoreThanTheClosureTells) {

@@ -195,7 +195,7 @@ TEST(LaserMapperNodelet, TheMapGrowsFollowsTheGraphAndIsForgotten) {
   robot.drive();
   ASSERT_TRUE(WallRobot::until([&] {
     return robot.clouds.size() > before && robot.showsWall(1500, 0.0) && robot.hasLastPose();
-  })) << "none of its poses is left to the next test, whose time begins anew";
+  })) << "no pose is left for the next test, which restarts the time";
 }
 
 TEST(LaserMapperNodelet, TilesAddUpToTheMapWhichIsSavedAndCleared) {
@@ -216,7 +216,7 @@ TEST(LaserMapperNodelet, TilesAddUpToTheMapWhichIsSavedAndCleared) {
     EXPECT_GE(p[0], tile.x * tile.edge - 0.01);
     EXPECT_LE(p[0], (tile.x + 1) * tile.edge + 0.01);
   }
-  EXPECT_EQ(robot.qualities.back().wall_pairs, 0U) << "one pass alone";
+  EXPECT_EQ(robot.qualities.back().wall_pairs, 0U) << "a single pass";
 
   urban_nav_msgs::FileCommand save;
   save.request.path = ::testing::TempDir() + "laser_mapper_nodelet_test.ply";

@@ -31,7 +31,7 @@ struct Notes : DriveObserver {
 
   void observe(const DriveFrame& frame, const Stretch& stretch, std::size_t first,
                const std::vector<DriveReturn>& returns) override {
-    EXPECT_LE(settled, first) << "a return that was settled is seen again";
+    EXPECT_LE(settled, first) << "a finished return is visible again";
     seen[frame.travelled] = {first, first + returns.size() - 1};
     nearest[frame.travelled] = stretch;
     for (const DriveReturn& one : returns) EXPECT_LE(std::abs(one.travelled - frame.travelled), 3.0);
@@ -167,8 +167,8 @@ TEST(DriveLabeler, CountsAClassImageOfAnotherSourceAsAView) {
   const auto with = [](int scene_class) { return cv::Mat(81, 101, CV_8U, cv::Scalar(scene_class)); };
   const float without = sumFoliage({});
   EXPECT_GT(sumFoliage(with(6)), without + 100.0F);
-  EXPECT_EQ(sumFoliage(with(255)), without) << "the source names none";
-  EXPECT_EQ(sumFoliage(with(1)), without) << "a class that the model does not know";
+  EXPECT_EQ(sumFoliage(with(255)), without) << "the source states no classes";
+  EXPECT_EQ(sumFoliage(with(1)), without) << "a class unknown to the model";
   EXPECT_EQ(sumFoliage(cv::Mat(10, 10, CV_8U, cv::Scalar(6))), without) << "another size";
 }
 

@@ -132,14 +132,14 @@ TEST(MapLabeler, FollowsClassImagesAtThePointsThatTheirImageShows) {
       ++doubted;
     }
   }
-  EXPECT_GT(became_foliage + doubted, without.shown.at(0) / 2) << "ground and wall that the image shows";
-  EXPECT_LT(became_foliage + doubted, yard.labels.size() - 2000) << "only what the image shows";
+  EXPECT_GT(became_foliage + doubted, without.shown.at(0) / 2) << "ground and wall visible in the image";
+  EXPECT_LT(became_foliage + doubted, yard.labels.size() - 2000) << "only points visible in the image";
   EXPECT_GT(became_foliage, 0U) << "where the model was not sure";
   EXPECT_GT(confirmed, 0U);
   for (const cv::Mat& silent : {image_of(SceneClass::Vehicle), image_of(SceneClass::Foliage, 50)}) {
     const LabelledYard made = label(silent);
     for (std::size_t i = 0; i < made.labels.size(); ++i)
-      ASSERT_EQ(made.labels[i].label, without.labels[i].label) << "a class that the model lacks, another size";
+      ASSERT_EQ(made.labels[i].label, without.labels[i].label) << "unknown class, different size";
   }
 }
 
@@ -157,12 +157,12 @@ TEST(MapLabeler, LeavesOutTheImagesOfACameraThatIsUpsideDown) {
   EXPECT_EQ(seen.upside_down, 0U);
   EXPECT_GT(seen.shown.at(0), 200U);
   const LabelledYard made = labelPoints(yard.scene.points, views, turned, false, model);
-  EXPECT_GE(made.upside_down, 4U) << "one or two images tell it";
+  EXPECT_GE(made.upside_down, 4U) << "detected after one or two images";
   EXPECT_EQ(static_cast<std::size_t>(std::count(made.shown.begin(), made.shown.end(), 0U)), made.upside_down);
   std::vector<PlacedView> of_two = views;
   for (std::size_t i = 0; i < of_two.size(); ++i) of_two[i].device = i;
   EXPECT_EQ(labelPoints(yard.scene.points, of_two, turned, false, model).upside_down, 0U)
-      << "each camera is judged by itself";
+      << "cameras are checked separately";
 }
 
 TEST(MapLabeler, HoldsThePointsOfAPartOfALongMapAndLabelsThemAsIfItHeldAll) {

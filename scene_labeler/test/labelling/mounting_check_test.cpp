@@ -21,7 +21,7 @@ TEST(MountingCheck, FindsACameraThatIsUpsideDown) {
   for (int frame = 0; frame < 3; ++frame) upside_down.add(yard.scene, measureSceneFeatures(model, yard.scene));
   EXPECT_GT(upside_down.evidence(), 0.0);
   EXPECT_TRUE(upside_down.isUpsideDown());
-  EXPECT_NEAR(upside_down.evidence(), -upright.evidence(), 1e-6) << "the same comparison, the other way round";
+  EXPECT_NEAR(upside_down.evidence(), -upright.evidence(), 1e-6) << "the same comparison with the sides swapped";
   yard.scene.view = {};
   without.add(yard.scene, measureSceneFeatures(model, yard.scene));
   EXPECT_EQ(without.evidence(), 0.0);

@@ -30,8 +30,8 @@ TEST(Spread, GivesHiddenPointsTheClassOfTheirSurroundings) {
   spreadToHidden(points, is_shown, is_hidden, {SceneClass::Wall, SceneClass::Foliage}, logs);
   EXPECT_GT(std::exp(logs[2 * 20]), 0.8F);
   EXPECT_GT(std::exp(logs[2 * 21 + 1]), 0.8F);
-  EXPECT_EQ(logs[2 * 22], before[2 * 22]) << "nothing around it";
-  for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(logs[i], before[i]) << "shown points stay";
+  EXPECT_EQ(logs[2 * 22], before[2 * 22]) << "no neighbours";
+  for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(logs[i], before[i]) << "visible points are unchanged";
   EXPECT_NEAR(std::exp(logs[40]) + std::exp(logs[41]), 1.0F, 1e-5F);
 }
 
@@ -48,7 +48,7 @@ TEST(Spread, SurroundingsTellTheKindOfGroundAndShapeTheRest) {
   std::vector<std::uint8_t> is_shown(12, 1), is_hidden(12, 0);
   for (const std::size_t i : {10U, 11U}) std::swap(is_shown[i], is_hidden[i]);
   spreadToHidden(points, is_shown, is_hidden, {SceneClass::Grass, SceneClass::DirtPath, SceneClass::Vehicle}, logs);
-  EXPECT_GT(logs[3 * 10 + 1], logs[3 * 10]) << "dirt like all around";
+  EXPECT_GT(logs[3 * 10 + 1], logs[3 * 10]) << "dirt, as its neighbours";
   EXPECT_GT(std::exp(logs[3 * 11 + 2]), 0.9F);
 }
 

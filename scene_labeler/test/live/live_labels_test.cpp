@@ -96,7 +96,7 @@ TEST_F(LiveLabelsOfAWall, EachRoundOfARecordingHasTheSameLabels) {
   addScan(kPoses - 1);
   const std::size_t third = drive();
   EXPECT_EQ(labels_->counts().drives, 2U);
-  EXPECT_GE(second, first) << "with what the drive before had not settled yet";
+  EXPECT_GE(second, first) << "including unfinished returns of the previous drive";
   EXPECT_NEAR(static_cast<double>(third), static_cast<double>(second), 0.2 * static_cast<double>(second));
 }
 

@@ -46,7 +46,7 @@ TEST_F(Teacher, LearnsCorrectionsOnAThreadAndCorrectionsThatComeMeanwhileAfterwa
   EXPECT_TRUE(teaching.isTraining());
   const auto first = taughtModel(teaching);
   ASSERT_TRUE(first);
-  EXPECT_TRUE(teaching.isTraining()) << "the second correction came during the training";
+  EXPECT_TRUE(teaching.isTraining()) << "the second correction arrived during training";
   const auto second = taughtModel(teaching);
   ASSERT_TRUE(second);
   EXPECT_FALSE(teaching.isTraining());

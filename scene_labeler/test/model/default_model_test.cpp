@@ -15,7 +15,7 @@ TEST(DefaultModel, KnowsTheSevenClassesOfThePaperAndIsSmall) {
   EXPECT_EQ(model.device, kLms291Device);
   EXPECT_GE(model.sources.size(), 10u);
   EXPECT_LE(defaultModelBytes().size(), 1'000'000u);
-  EXPECT_GE(model.samples.size(), 5000u) << "so that it can be taught";
+  EXPECT_GE(model.samples.size(), 5000u) << "required for corrections";
 }
 
 }  // namespace

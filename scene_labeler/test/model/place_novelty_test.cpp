@@ -125,7 +125,7 @@ TEST(DoubtKinds, DividesWithinKindsOfGroundAndWithinOtherKinds) {
   for (const std::vector<float>& after : {in_between, strange}) {
     EXPECT_NEAR(after[0] + after[1] + after[2], 0.6F, 1e-6F);
     EXPECT_NEAR(after[3] + after[4] + after[5], 0.4F, 1e-6F);
-    EXPECT_GT(after[1], after[0]) << "the likeliest stays so";
+    EXPECT_GT(after[1], after[0]) << "the most probable class is unchanged";
   }
   EXPECT_GT(before[1], in_between[1]);
   EXPECT_GT(in_between[1], strange[1]);

@@ -177,7 +177,7 @@ TEST(SceneLabelerNodelet, LabelsWhatTheLaserAndTheCameraOfASideSee) {
   robot.click("map", last[0], last[1], last[2]);
   EXPECT_TRUE(StreetRobot::answers("odom")) << "another frame";
   robot.click("odom", last[0], last[1], last[2] + 20.0F);
-  EXPECT_TRUE(StreetRobot::answers("has a return within 0.3 m")) << "nothing is there";
+  EXPECT_TRUE(StreetRobot::answers("has a return within 0.3 m")) << "no point there";
   robot.click("odom", last[0], last[1], last[2]);
   EXPECT_TRUE(StreetRobot::until([] { return StreetRobot::correct("dirt_path").success; }));
   EXPECT_TRUE(StreetRobot::until([&] { return robot.diagnosed("corrections", "1"); }));

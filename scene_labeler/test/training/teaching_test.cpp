@@ -134,7 +134,7 @@ TEST(Teaching, KeepsAnswersThatNobodyCorrectedUnlessThePlaceIsNew) {
   EXPECT_LE(anchors.size(), 300U);
   EXPECT_GT(std::count(anchors.begin(), anchors.end(), SceneClass::Wall), 10);
   EXPECT_EQ(std::count(anchors.begin(), anchors.end(), SceneClass::Grass), 0);
-  EXPECT_EQ(std::count(anchors.begin(), anchors.end(), SceneClass::Paved), 0) << "other ground may be wrong as well";
+  EXPECT_EQ(std::count(anchors.begin(), anchors.end(), SceneClass::Paved), 0) << "other ground may also be wrong";
   for (Eigen::Vector3f& point : yard.scene.points)  // terraces on a slope
     point = {2.0F * point.x(), 2.0F * point.y(), 4.0F * point.z() + 0.5F * std::floor(point.x()) + point.y()};
   EXPECT_TRUE(anchorsOf(yard).empty());

@@ -35,7 +35,7 @@ TEST(FaultRates, NameTheShareAndWhatToDo) {
   EXPECT_EQ(rates.second(20, 20).first, ReportLevel::Error) << "30 %";
   for (int i = 0; i < 7; ++i) EXPECT_EQ(rates.second(0, 20).first, ReportLevel::Error) << i;
   for (int i = 0; i < 2; ++i) EXPECT_EQ(rates.second(0, 20).first, ReportLevel::Warning) << i;
-  EXPECT_EQ(rates.second(0, 20).first, ReportLevel::Ok) << "ten seconds later it is forgotten";
+  EXPECT_EQ(rates.second(0, 20).first, ReportLevel::Ok) << "dropped after ten seconds";
 }
 
 TEST(FaultRates, OneInAHundredIsNoFault) {

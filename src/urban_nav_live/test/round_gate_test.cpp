@@ -55,7 +55,7 @@ TEST(RoundGate, AStreamThatIsSilentDelaysTheNextRoundByThePatience) {
   gate.add(0, 5.1, "d");
   EXPECT_EQ(gate.text, "aA|bcd");
   gate.add(1, 10.1, "B");
-  EXPECT_EQ(gate.text, "aA|bcd") << "of the round before";
+  EXPECT_EQ(gate.text, "aA|bcd") << "of the previous round";
   EXPECT_EQ(gate.gate.dropped(), 1);
   gate.add(1, 5.0, "C");
   EXPECT_EQ(gate.text, "aA|bcdC");
@@ -83,7 +83,7 @@ TEST(RoundGate, AStreamThatMissedItsJumpComesAlong) {
   EXPECT_EQ(gate.text, "aA|bcB");
   gate.add(1, 1.0, "C");
   gate.add(0, 1.0, "d");
-  EXPECT_EQ(gate.text, "aA|bcB|Cd") << "the next jump is one, too";
+  EXPECT_EQ(gate.text, "aA|bcB|Cd") << "the next one is also a jump";
 }
 
 TEST(RoundGate, TwoJumpsAreTwoRounds) {

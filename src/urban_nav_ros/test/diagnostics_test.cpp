@@ -22,7 +22,7 @@ TEST(Diagnostics, HealthHasALevel) {
 TEST(Arrival, SaysWhatHasNotComeAndWhatIsSilent) {
   Arrival arrival("/camera/image");
   EXPECT_EQ(arrival.absence(), "/camera/image has not been received yet");
-  EXPECT_EQ(arrival.silence(0.0), "") << "that is another thing";
+  EXPECT_EQ(arrival.silence(0.0), "") << "absence is reported separately";
   EXPECT_GT(arrival.age(), 1e9);
   arrival.happen();
   EXPECT_TRUE(arrival.any());

@@ -47,7 +47,7 @@ TEST(StaticTransforms, NameTwoThatContradictEachOther) {
   StaticTransforms transforms;
   transforms.add(toStaticTransform("base_link", "laser_left", at(1.0, 0.3)));
   transforms.add(toStaticTransform("base_link", "laser_left", at(1.0, 0.3)));
-  EXPECT_TRUE(transforms.faults().empty()) << "equal ones are one";
+  EXPECT_TRUE(transforms.faults().empty()) << "equal transforms are merged";
   transforms.add(toStaticTransform("base_link", "laser_left", at(1.3, 0.3)));
   transforms.add(toStaticTransform("base_link", "laser_left", at(1.3, 0.3)));
   ASSERT_EQ(transforms.faults().size(), 1U);

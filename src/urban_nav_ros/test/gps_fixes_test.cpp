@@ -49,7 +49,7 @@ TEST(GpsFixes, TakeTheOriginWhereNobodyTellsThePlace) {
   EXPECT_EQ(made[0].p_base, urban_nav_core::Vector3d(0.0, 0.0, 0.0));
   EXPECT_TRUE(fixes.isAssumed());
   fixes.add(makeAntenna());
-  EXPECT_FALSE(fixes.isAssumed()) << "better late";
+  EXPECT_FALSE(fixes.isAssumed()) << "late fixes are used";
   EXPECT_EQ(fixes.add(makeFix(61)).at(0).p_base, urban_nav_core::Vector3d(-0.2, 0.1, 1.4));
 }
 

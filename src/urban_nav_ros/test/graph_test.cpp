@@ -51,7 +51,7 @@ TEST(GraphUpdateMessage, RefusesRunsThatAreNone) {
   EXPECT_FALSE(toGraphUpdate(bad));
   bad = good;
   bad.segments.clear();
-  EXPECT_TRUE(toGraphUpdate(bad)) << "nothing moved";
+  EXPECT_TRUE(toGraphUpdate(bad)) << "no pose changed";
 }
 
 TEST(PoseCorrectionMessage, ComesBackTheSameWithItsSize) {

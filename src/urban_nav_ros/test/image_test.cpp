@@ -60,7 +60,7 @@ TEST(ToGrey, TakesDeepPixelsByTheGivenScale) {
   image = message("mono16", 2, 1, {0x0f, 0xff, 0x01, 0x00});
   image.is_bigendian = 1;
   EXPECT_EQ(toGrey(image, {0.0, 16.0}).pixels.at<std::uint8_t>(0, 0), 255);
-  EXPECT_EQ(toGrey(image).pixels.at<std::uint8_t>(0, 1), 16) << "by its own range";
+  EXPECT_EQ(toGrey(image).pixels.at<std::uint8_t>(0, 1), 16) << "scaled by its own range";
 }
 
 TEST(ToGrey, TakesTheBrightnessOfYuv) {
@@ -83,7 +83,7 @@ TEST(ToGrey, ReadsDeepColour) {
 
 TEST(ToGrey, SaysWhatIsWrong) {
   EXPECT_NE(toGrey(message("32FC1", 1, 1, {1, 2, 3, 4})).fault.find("mono8"), std::string::npos)
-      << "names what is known";
+      << "lists the supported encodings";
   EXPECT_FALSE(toGrey(message("mono8", 4, 4, std::vector<std::uint8_t>(15), 4)).fault.empty());
   EXPECT_FALSE(toGrey(message("mono8", 4, 1, std::vector<std::uint8_t>(4), 3)).fault.empty())
       << "step shorter than a row";

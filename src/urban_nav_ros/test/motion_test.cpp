@@ -90,7 +90,7 @@ TEST(GyroMotion, NoiseIsThatOfTheMessagesWhereNoneIsSet) {
   gyro.add(imu(kSecond, Vector3d::Zero()));
   const auto silent = gyro.add(imu(kSecond + kSecond / 100, Vector3d::Zero()));
   ASSERT_TRUE(silent);
-  EXPECT_TRUE(silent->information.isZero()) << "they state none";
+  EXPECT_TRUE(silent->information.isZero()) << "no covariance stated";
   sensor_msgs::Imu stated = imu(kSecond + kSecond / 50, Vector3d::Zero());
   for (const std::size_t i : {0U, 4U, 8U}) stated.angular_velocity_covariance[i] = 0.04 * 0.04;
   const auto input = gyro.add(stated);

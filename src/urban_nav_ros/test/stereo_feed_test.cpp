@@ -266,7 +266,7 @@ TEST(StereoFeed, GoesOnFromItsState) {
            std::to_string(feed->counts(Side::Right).late) + " " + std::to_string(feed->counts(Side::Left).received);
   };
   const std::string whole = play(messages.size() + 1);
-  EXPECT_NE(whole.find("none"), std::string::npos) << "else the test says little";
+  EXPECT_NE(whole.find("none"), std::string::npos) << "otherwise the test is not meaningful";
   EXPECT_NE(whole.find("motion"), std::string::npos);
   for (std::size_t cut = 0; cut < messages.size(); ++cut) EXPECT_EQ(play(cut), whole) << "cut before message " << cut;
 }

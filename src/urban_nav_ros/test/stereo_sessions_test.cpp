@@ -140,7 +140,7 @@ TEST(StereoSessions, AJumpBackInTimeEndsTheSession) {
   EXPECT_EQ(kept.cameras.size(), 2U);
   const std::vector<StampNs> expected{kSessionStart, kSessionStart + 50 * kSessionMs,
                                       kSessionStart - 2000 * kSessionMs};
-  EXPECT_EQ(kept.stamps, expected) << "what waited was delivered first";
+  EXPECT_EQ(kept.stamps, expected) << "waiting pairs are delivered first";
   EXPECT_EQ(kept.sessions->counts().right_missing, 1);
 }
 

@@ -86,14 +86,14 @@ TEST(Crash, WhatWasCommittedIsThere) {
     }
     EXPECT_GE(there, reported);
     EXPECT_LE(there, std::max(reported, written) + 1);
-    EXPECT_GE(there, written) << "what an earlier round had committed";
+    EXPECT_GE(there, written) << "committed by an earlier round";
     for (; written < there; ++written) writeBatch(expected, written);
     expected.commit();
     EXPECT_TRUE(read == dump(expected));
     Store store(path, Access::Write);  // checkpoints the log
     EXPECT_TRUE(dump(store) == read);
   }
-  EXPECT_GT(written, 10) << "else the test says nothing";
+  EXPECT_GT(written, 10) << "otherwise the test is not meaningful";
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST(LiveWriter, CommitsWhatWasPostedInItsOrder) {
     EXPECT_EQ(counts.waiting, 0U);
     EXPECT_EQ(counts.fault, "");
     Store reader(folder.file("s.db"), Access::Read);
-    EXPECT_TRUE(dump(reader) == dump(expected)) << "while it is at work";
+    EXPECT_TRUE(dump(reader) == dump(expected)) << "while it is writing";
   }
 }
 

@@ -42,7 +42,7 @@ TEST_F(Merge, JoinsOtherSessionsInAnyOrder) {
   EXPECT_TRUE(dumpStore(out) == dumpStore(both));
   EXPECT_EQ(result.identical, 0);
   merge({b, a}, out);
-  EXPECT_TRUE(dumpStore(out) == dumpStore(both)) << "over the one before";
+  EXPECT_TRUE(dumpStore(out) == dumpStore(both)) << "replaces the previous file";
   const MergeResult again = merge({out, a}, out);
   EXPECT_TRUE(dumpStore(out) == dumpStore(both)) << "into one of the sources";
   EXPECT_EQ(again.rows, result.rows);
@@ -152,7 +152,7 @@ TEST_F(Merge, TakesTheLaterRevisionOfTheGraph) {
     EXPECT_TRUE(dumpStore(out) == dumpStore(b));
   }
   expectError([&] { merge({b, c}, out); }, out, "contradict");
-  EXPECT_TRUE(dumpStore(out) == dumpStore(b)) << "what was there stays";
+  EXPECT_TRUE(dumpStore(out) == dumpStore(b)) << "the existing file is unchanged";
 }
 
 TEST_F(Merge, RefusesWhatIsNoStore) {

@@ -28,9 +28,9 @@ TEST(Store, HoldsWhatWasCommittedAndNothingElse) {
     store.commit();
     before = dump(store);
     fill(store, 2, 30);
-    EXPECT_FALSE(dump(store) == before) << "what was not committed is seen by the one who writes it";
+    EXPECT_FALSE(dump(store) == before) << "uncommitted writes are visible to the writer";
   }
-  EXPECT_EQ(folder.files(), 1U) << "nothing is left beside a store that was closed";
+  EXPECT_EQ(folder.files(), 1U) << "no auxiliary files after closing";
   Store store(path, Access::Read);
   EXPECT_TRUE(dump(store) == before);
   EXPECT_EQ(store.sessions().all().size(), 1U);

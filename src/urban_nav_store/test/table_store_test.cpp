@@ -63,9 +63,9 @@ TEST_F(RowsOfATable, AreReadFromOneStateWhateverIsCommittedMeanwhile) {
     });
     return rows;
   };
-  EXPECT_EQ(countWhileWriting(following), 2) << "rows and tally are of one state";
-  EXPECT_EQ(countWhileWriting(following), 4) << "the next call sees what was committed";
-  EXPECT_EQ(countWhileWriting(snapshot), 2) << "the file as it was opened";
+  EXPECT_EQ(countWhileWriting(following), 2) << "rows and count are of one state";
+  EXPECT_EQ(countWhileWriting(following), 4) << "the next call reads committed rows";
+  EXPECT_EQ(countWhileWriting(snapshot), 2) << "a snapshot of the file at opening";
 }
 
 TEST_F(RowsOfATable, AStateIsReadWithAllItsParts) {

@@ -86,7 +86,7 @@ TEST(Assessment, ACovarianceThatNothingConfirmsGivesWideProbabilities) {
   EXPECT_NEAR(of_both, probabilityWithin(0.1, std::pow(covarianceScales()[0] * 0.05, 2) * Eigen::Matrix3d::Identity()),
               1e-6);
   EXPECT_LT(of_nothing, 0.25);
-  EXPECT_NEAR(of_turns, of_nothing, 1e-6) << "lengths may be as wrong as before";
+  EXPECT_NEAR(of_turns, of_nothing, 1e-6) << "lengths are no more accurate";
   EXPECT_GT(of_both, of_nothing + 0.3);
 }
 

@@ -39,7 +39,7 @@ TEST(CovarianceScale, DifferencesFindTheFactor) {
       for (double& each : difference) each = std::hypot(0.1 * scale, 0.02) * normal(random);
       evidence.add(difference, 0.01 * Eigen::Matrix3d::Identity(), 0.0004 * Eigen::Matrix3d::Identity());
     }
-    EXPECT_NEAR(std::log(meanScale(evidence.probabilities()) / scale), 0.0, 0.13) << "half a step of the grid";
+    EXPECT_NEAR(std::log(meanScale(evidence.probabilities()) / scale), 0.0, 0.13) << "half a grid step";
   }
 }
 

@@ -88,7 +88,7 @@ TEST(OffsetMonitor, IgnoresFramesWithoutMeasurement) {
   EXPECT_FALSE(monitor.test());
   EXPECT_TRUE(monitor.segments().empty());
   monitor.add(4, 0.1, 0.1);
-  EXPECT_FALSE(monitor.test()) << "one frame is compared with nothing";
+  EXPECT_FALSE(monitor.test()) << "a single frame is not compared";
 }
 
 }  // namespace

@@ -240,7 +240,7 @@ TEST(FuseOdometry, AConflictIsNamedAndItsCovarianceGrows) {
   EXPECT_GE(fused.conflicts.back().to, stereo[105].to);
   EXPECT_NEAR(fused.conflicts.front().distance_m, 0.5, 0.1);
   EXPECT_GT(fused.steps[105].covariance.trace(), 10.0 * fused.steps[50].covariance.trace());
-  EXPECT_LT(std::abs(constant(fused, "scale").value), 1e-3) << "one stretch does not decide for all";
+  EXPECT_LT(std::abs(constant(fused, "scale").value), 1e-3) << "the decision is made per stretch";
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TEST(So3, LogUndoesExpAtEveryAngle) {
     const Vector3d back = logSo3(expSo3(phi));
     EXPECT_LE((back - phi).norm(), 4e-16 * (1.0 + angle)) << angle;
     if (angle > 0.0 && angle < 1e-3) {
-      EXPECT_LE((back - phi).norm(), 1e-15 * angle) << "a small angle keeps its digits: " << angle;
+      EXPECT_LE((back - phi).norm(), 1e-15 * angle) << "small angles retain their precision: " << angle;
     }
   }
 }

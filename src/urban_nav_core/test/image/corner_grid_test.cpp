@@ -122,7 +122,7 @@ TEST(CornerCap, OfEqualsTheFirstStayAndOrderIsKept) {
 }
 
 TEST(CornerGrid, FromPixelsToTheGridNothingIsAllocatedOnceBuffersHaveGrown) {
-  if (!testing::countsAllocations()) GTEST_SKIP() << "the sanitizer's allocator does not count";
+  if (!testing::countsAllocations()) GTEST_SKIP() << "allocations are not counted under a sanitizer";
   std::mt19937 random(8);
   std::vector<std::uint8_t> pixels(320 * 240);
   for (std::uint8_t& pixel : pixels) pixel = static_cast<std::uint8_t>(random() & 255U);

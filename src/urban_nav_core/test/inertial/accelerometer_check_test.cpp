@@ -50,7 +50,7 @@ TEST(AxisMap, RefusesWhatIsNone) {
 TEST(AccelerometerCheck, FindsNothingWrongWithASoundOne) {
   EXPECT_TRUE(examine(Matrix3d::Identity()).sound());
   EXPECT_EQ(examine(Matrix3d::Identity()).sentence(), "");
-  EXPECT_TRUE(AccelerometerCheck().verdict(Vector3d::UnitZ(), Vector3d::UnitY()).sound()) << "of nothing";
+  EXPECT_TRUE(AccelerometerCheck().verdict(Vector3d::UnitZ(), Vector3d::UnitY()).sound()) << "no messages";
   const Matrix3d tilted = Eigen::AngleAxisd(0.5, Vector3d::UnitX()).toRotationMatrix();
   EXPECT_TRUE(examine(tilted).sound()) << "a steep street";
 }

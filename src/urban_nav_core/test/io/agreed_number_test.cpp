@@ -32,7 +32,7 @@ TEST_F(AgreedNumber, TheFirstProposalHoldsForAll) {
 
 TEST_F(AgreedNumber, IsFoundOnceItIsWritten) {
   EXPECT_EQ(findAgreedNumber(file), std::nullopt);
-  EXPECT_FALSE(std::filesystem::exists(folder)) << "a search makes no folder";
+  EXPECT_FALSE(std::filesystem::exists(folder)) << "a lookup creates no folder";
   agreeOnNumber(file, 7);
   EXPECT_EQ(findAgreedNumber(file), 7);
   EXPECT_EQ(agreeOnNumber(file, 1), 7);

@@ -85,7 +85,7 @@ TEST_F(AtomicFileTest, AFullDiskIsAnErrorAndNoFile) {
   EXPECT_EQ(catchError([&] { writeAtomically(path("a.txt"), "x"); }),
             path("a.txt") + ": cannot be written: No space left on device");
   fs::create_symlink("/dev/full", path("a.part.txt"));
-  EXPECT_THROW(writeAtomically(path("a.txt"), "x"), DataError) << "no mistake of the user";
+  EXPECT_THROW(writeAtomically(path("a.txt"), "x"), DataError) << "not a UserError";
   EXPECT_FALSE(fs::exists(path("a.txt")));
 }
 

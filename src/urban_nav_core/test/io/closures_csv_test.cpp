@@ -53,7 +53,7 @@ TEST(ClosuresCsvTest, ReadsWhatItPrints) {
   EXPECT_EQ(read[0].where, "c.csv:2");
   EXPECT_TRUE(isApprox(read[0].T_a_b.value(), *icpRow().T_a_b, 1e-15));
   EXPECT_FALSE(read[1].T_a_b);
-  EXPECT_FALSE(read[0].verdict) << "a verdict of an earlier run is no input";
+  EXPECT_FALSE(read[0].verdict) << "verdicts of earlier runs are not read";
   EXPECT_EQ(read[0].reason, "");
   EXPECT_EQ(read[0].weight, 0.0);
 }

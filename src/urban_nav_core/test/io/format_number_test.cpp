@@ -13,7 +13,7 @@ TEST(FormatNumber, KeepsSignificantDigitsWithoutTrailingZeros) {
   EXPECT_EQ(formatNumber(0.00123456, 2), "0.0012");
   EXPECT_EQ(formatNumber(1.5, 6), "1.5");
   EXPECT_EQ(formatNumber(-2.0), "-2");
-  EXPECT_EQ(formatNumber(123456.7), "123457") << "digits before the point are all kept";
+  EXPECT_EQ(formatNumber(123456.7), "123457") << "all digits before the point are kept";
 }
 
 TEST(FormatNumber, UsesAnExponentOnlyForExtremes) {

@@ -52,8 +52,10 @@ TEST(TextTable, TextWithOtherSeparatorsStaysInItsCell) {
 
 TEST(TextTable, QuotedCellsBetweenCommasMayHaveDecimalCommas) {
   EXPECT_EQ(parse("\"1\",\"2,5\"\n\"4\",\"-5,125\"\n"), (Rows{{"1", "2.5"}, {"4", "-5.125"}}));
-  EXPECT_EQ(parse("1.5,\"2,25\"\n2.5,\"3,75\"\n"), (Rows{{"1.5", "2,25"}, {"2.5", "3,75"}})) << "there are points";
-  EXPECT_EQ(parse("1,\"2,500\"\n4,\"5,125\"\n"), (Rows{{"1", "2,500"}, {"4", "5,125"}})) << "perhaps thousands";
+  EXPECT_EQ(parse("1.5,\"2,25\"\n2.5,\"3,75\"\n"), (Rows{{"1.5", "2,25"}, {"2.5", "3,75"}}))
+      << "other cells have decimal points";
+  EXPECT_EQ(parse("1,\"2,500\"\n4,\"5,125\"\n"), (Rows{{"1", "2,500"}, {"4", "5,125"}}))
+      << "may be a thousands separator";
 }
 
 TEST(TextTable, NamesTheLineOfABrokenQuote) {

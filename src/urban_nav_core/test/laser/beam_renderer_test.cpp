@@ -70,8 +70,8 @@ TEST(BeamRenderer, LeavesOutWhatNoPoseCoversAndSaysHowMuch) {
   for (const StampNs stamp : {0L, 1L, 2L, 9L, 10L}) trajectory.append(stamp * kFrame, Pose());
   BeamRenderer renderer(trajectory, kLaser, Pose(), kGap);
   std::vector<LaserPoint> points;
-  EXPECT_EQ(renderer.render(turn(-kFrame, 2, kFrame), points), 1U) << "the second stands at the first pose";
-  EXPECT_EQ(renderer.render(turn(2 * kFrame, 9, kFrame), points), 6U) << "both poses beside the gap are covered";
+  EXPECT_EQ(renderer.render(turn(-kFrame, 2, kFrame), points), 1U) << "the second is at the first pose";
+  EXPECT_EQ(renderer.render(turn(2 * kFrame, 9, kFrame), points), 6U) << "both poses next to the gap are covered";
   EXPECT_EQ(renderer.render(turn(10 * kFrame, 3, kFrame), points), 2U);
   EXPECT_EQ(points.size(), 1U + 3U + 1U);
   for (const Trajectory& none : {Trajectory(), drive(1)}) {

@@ -55,7 +55,7 @@ TEST(Scan, IntensitiesMayBeAbsent) {
 TEST(Scan, ComparesToATolerance) {
   const PlanarScan a = someScan();
   PlanarScan b = a;
-  EXPECT_TRUE(isApprox(a, b, 0.0)) << "what is not valid equals what is not valid";
+  EXPECT_TRUE(isApprox(a, b, 0.0)) << "invalid returns are equal";
   EXPECT_TRUE(isApprox(toScan(a), toScan(b), 0.0));
   b.ranges[2] += 0.01F;
   EXPECT_FALSE(isApprox(a, b, 0.005));

@@ -34,7 +34,7 @@ TEST_F(Documents, GetEachTableWhereItBelongs) {
   writeAtomically(package_ + "/config/stage.yaml", "old");
   writeDocuments(package_, {{"stage", rows_}, {"", {rows_[0]}}});
   EXPECT_EQ(readTextFile(package_ + "/config/stage.yaml"), printYaml("stage", rows_));
-  EXPECT_FALSE(std::filesystem::exists(package_ + "/config/.yaml")) << "only what is there is written anew";
+  EXPECT_FALSE(std::filesystem::exists(package_ + "/config/.yaml")) << "only existing files are rewritten";
   const std::string readme = readTextFile(package_ + "/README.md");
   EXPECT_EQ(readme.find("\nold\n"), std::string::npos);
   EXPECT_NE(readme.find("| `stage.window` |"), std::string::npos);

@@ -97,7 +97,7 @@ TEST(OldNames, HaveOldWords) {
   EXPECT_EQ(load(memoryTable(), {parseSetting("memory.forget=all")}).parameters.keeps, "all");
   EXPECT_EQ(catchError([] { load(memoryTable(), {parseSetting("memory.keeps=delete")}); }),
             "--set memory.keeps=delete: memory.keeps = delete: allowed all, none")
-      << "new name, old word";
+      << "new name, old value";
 }
 
 TEST(OldNames, WordsOfTheParameterServerBecomeSwitches) {

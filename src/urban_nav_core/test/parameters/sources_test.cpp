@@ -43,7 +43,7 @@ TEST(Sources, LaterOnesWinAndSayWhoTheyAre) {
   auto loaded = load(exampleTable(), assignments);
   EXPECT_EQ(loaded.parameters.window, 30);
   EXPECT_EQ(loaded.parameters.noise, 2.0);
-  EXPECT_EQ(loaded.parameters.switch_, "on") << "the server takes the word on for a boolean";
+  EXPECT_EQ(loaded.parameters.switch_, "on") << "the parameter server converts on to a boolean";
   EXPECT_EQ(find(loaded, "window").origin, "/vo/window");
   assignments.push_back(parseSetting("stage.window = 40"));
   loaded = load(exampleTable(), assignments);

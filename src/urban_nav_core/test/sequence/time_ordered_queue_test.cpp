@@ -91,9 +91,9 @@ TEST(TimeOrderedQueue, LateAndDoubledInputsAreCountedAndDropped) {
   TestQueue queue(2, 10 * kMillisecond);
   queue.put(0, 100 * kMillisecond, 0);
   queue.put(0, 120 * kMillisecond, 0);
-  EXPECT_FALSE(queue.put(0, 120 * kMillisecond, 1)) << "the same again, still waiting";
+  EXPECT_FALSE(queue.put(0, 120 * kMillisecond, 1)) << "duplicate of a waiting input";
   EXPECT_EQ(drain(queue).size(), 1U);
-  EXPECT_FALSE(queue.put(0, 100 * kMillisecond, 1)) << "the same again, handed on";
+  EXPECT_FALSE(queue.put(0, 100 * kMillisecond, 1)) << "duplicate of a delivered input";
   EXPECT_FALSE(queue.put(1, 90 * kMillisecond, 1));
   EXPECT_TRUE(queue.put(1, 100 * kMillisecond, 1)) << "after it in the order (stamp, stream)";
   EXPECT_EQ(queue.counts(0).received, 4);
@@ -120,13 +120,13 @@ TEST(TimeOrderedQueue, AnOptionalStreamThatIsSilentIsNotWaitedFor) {
     return drain(queue).empty() || queue.waiting() > 0;
   };
   int k = 0;
-  for (; k < 20; ++k) EXPECT_TRUE(isHeldBack(k)) << "it may still come";
+  for (; k < 20; ++k) EXPECT_TRUE(isHeldBack(k)) << "may still arrive";
   for (; k < TestQueue::kPatience + 2; ++k) isHeldBack(k);
   EXPECT_FALSE(isHeldBack(k++));
   queue.put(0, k * kPeriod - 1, 0);
-  EXPECT_TRUE(isHeldBack(k)) << "it has come";
+  EXPECT_TRUE(isHeldBack(k)) << "arrived";
   for (int silent = 0; silent < 25; ++silent) isHeldBack(++k);
-  EXPECT_FALSE(isHeldBack(++k)) << "it has ended";
+  EXPECT_FALSE(isHeldBack(++k)) << "ended";
 }
 
 TEST(TimeOrderedQueue, AnObligatoryStreamIsWaitedForAlways) {
@@ -161,7 +161,7 @@ TEST(TimeOrderedQueue, AClockThatIsAheadMakesNoOtherStreamLate) {
       EXPECT_EQ(leading.size(), 600U);
       EXPECT_TRUE(std::is_sorted(leading.begin(), leading.end()));
       EXPECT_EQ(queue.counts(1).late, 0);
-      EXPECT_LT(most, 1100U) << "as many as come in kMostAhead";
+      EXPECT_LT(most, 1100U) << "as many as arrive in kMostAhead";
     }
   }
 }

@@ -133,7 +133,7 @@ TEST(Graphs, AGridIsALatticeWithEveryNeighbourAsDenseAsAsked) {
   }
   EXPECT_EQ(gridGraph(4, 3, 5, 2.0, 0.0, evenNoise(0.1, 0.1), 1).edges.size(), 59u);
   for (std::size_t i = 0; i + 1 < all.truth.size(); ++i)
-    EXPECT_NEAR(trueRelative(all, i, i + 1).t().x(), 2.0, 1e-12) << "x along the way";
+    EXPECT_NEAR(trueRelative(all, i, i + 1).t().x(), 2.0, 1e-12) << "x along the path";
 }
 
 TEST(Graphs, AManhattanStaysInTownAndClosesWhereItWasBefore) {
@@ -149,7 +149,7 @@ TEST(Graphs, AManhattanStaysInTownAndClosesWhereItWasBefore) {
     if (edge.kind == GraphEdgeKind::Closure)
       headings.insert(static_cast<std::size_t>(angleBetween(graph.truth[edge.a], graph.truth[edge.b]) + 0.1));
   }
-  EXPECT_EQ(headings.size(), 3u) << "met again at 0, 90 and 180 deg";
+  EXPECT_EQ(headings.size(), 3u) << "revisited at 0, 90 and 180 deg";
   EXPECT_EQ(graph.edges.size(), 1999 + 2000 - 225u) << "each visit but the first of a crossing";
 }
 

@@ -37,7 +37,7 @@ TEST(StreetGraph, ClosuresJoinPassesInBothDirections) {
     const GraphEdge& edge = graph.edges[i];
     EXPECT_EQ(edge.kind, GraphEdgeKind::Closure);
     EXPECT_GT(edge.b, edge.a + 600) << "more than 30 s apart";
-    EXPECT_GE(edge.b, last) << "as they come in time";
+    EXPECT_GE(edge.b, last) << "in the order of time";
     last = edge.b;
     const double angle = angleBetween(graph.truth[edge.a], graph.truth[edge.b]);
     const double apart = distanceBetween(graph.truth[edge.a], graph.truth[edge.b]);

@@ -31,7 +31,7 @@ TEST(Bytes, NothingIsReadAfterTheEnd) {
     ByteReader reader(std::string_view(bytes).substr(0, size));
     EXPECT_EQ(reader.text(), "");
     EXPECT_FALSE(reader.ok());
-    EXPECT_EQ(reader.integer32(), 0U) << "nor anything after it";
+    EXPECT_EQ(reader.integer32(), 0U) << "all later reads fail";
     EXPECT_FALSE(reader.complete());
   }
   bytes.clear();

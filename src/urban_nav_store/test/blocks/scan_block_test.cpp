@@ -37,7 +37,7 @@ TEST(ScanBlock, DirectionsThatRepeatCostNothing) {
   const std::vector<Scan> scans = someScans();
   std::size_t beams = 0;
   for (const Scan& scan : scans) beams += scan.beams.size();
-  EXPECT_LT(packScans(scans).size(), beams * 8) << "drawn ranges and intensities alone are four bytes each";
+  EXPECT_LT(packScans(scans).size(), beams * 8) << "random ranges and intensities take four bytes each";
 }
 
 TEST(ScanBlock, RefusesWhatIsNotFinite) {

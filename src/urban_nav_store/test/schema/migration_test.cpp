@@ -178,7 +178,7 @@ TEST_F(Migration, AddsTablesAndColumnsAndKeepsAllRows) {
   EXPECT_TRUE(urban_nav_core::isApprox(landmark.T_map_landmark, testing::Drawn(1).pose(), 1e-15));
   EXPECT_EQ(connection.integer("SELECT sum(count) FROM tally WHERE name='node'"), 12);
   schema::migrate(connection, laterTables());
-  EXPECT_EQ(properties(connection).size(), 2U) << "nothing is left to do";
+  EXPECT_EQ(properties(connection).size(), 2U) << "no further migration";
 }
 
 TEST_F(Migration, AnOlderFileIsReadAsItIs) {

@@ -59,7 +59,7 @@ TEST_F(Journal, UndoesAndRedoesInOrder) {
   EXPECT_EQ(standing(store), Numbers{1});
   EXPECT_EQ(journal.redo(), 2);
   EXPECT_EQ(standing(store), (Numbers{1, 2}));
-  EXPECT_EQ(journal.append(rejection(closure(kOne, 3, kOne, 30))), 4) << "numbers are not used again";
+  EXPECT_EQ(journal.append(rejection(closure(kOne, 3, kOne, 30))), 4) << "numbers are not reused";
   EXPECT_EQ(journal.redo(), std::nullopt) << "another edit followed";
   EXPECT_EQ(journal.undo(100), (Numbers{4, 2, 1}));
   EXPECT_EQ(journal.redo(), 1);
@@ -155,7 +155,7 @@ TEST_F(Journal, GoesWithItsSession) {
   EditJournal(store).append(rejection(closure(kOne, 1, kOne, 10)));
   store.sessions().clear(kOne);  // before it is mapped again
   store.sessions().put({kOne, "", "", "", 0, true});
-  EXPECT_EQ(EditJournal(store).all().size(), 1u) << "edits are no results";
+  EXPECT_EQ(EditJournal(store).all().size(), 1u) << "edits are not results";
   store.sessions().remove(kOne);
   store.sessions().put({kOne, "", "", "", 0, true});
   EXPECT_TRUE(EditJournal(store).all().empty());

@@ -36,7 +36,7 @@ TEST(States, OfAnyLengthComeBack) {
   EXPECT_EQ(store.states().get("t", "large"), small);
   EXPECT_FALSE(store.states().get("t", "small"));
   EXPECT_EQ(store.states().stages("s"), (std::vector<std::string>{"empty", "exact", "large", "small"}));
-  EXPECT_GT(store.states().bytes("s"), 3'500'000) << "what is drawn cannot be compressed";
+  EXPECT_GT(store.states().bytes("s"), 3'500'000) << "random bytes cannot be compressed";
   EXPECT_LT(store.states().bytes("t"), 100);
   EXPECT_EQ(store.states().bytes("u"), 0);
   store.close();

@@ -57,7 +57,7 @@ TEST_F(LiveTrustTest, IsUnsureUntilSomethingIsComparedAndThenKnown) {
   EXPECT_GT(estimates.back().frame.probabilities[0], 0.99);
   const std::size_t before = estimates.size();
   drive(100);
-  EXPECT_EQ(estimates.size(), before + 5) << "one a second while nothing changes";
+  EXPECT_EQ(estimates.size(), before + 5) << "one per second without changes";
   EXPECT_EQ(trust.status().health, Health::Ok);
 }
 
