@@ -19,7 +19,7 @@ using urban_nav_core::Vector3d;
 
 constexpr int kStepMs = 50, kForceMs = 10;
 
-/// An `odom` whose z axis leans by 4 deg against the vertical.
+/// An `odom` whose z axis is tilted by 4 deg against the vertical.
 Pose tiltedOdom() { return Pose(Quaterniond(Eigen::AngleAxisd(0.07, Vector3d(0.6, 0.8, 0.0))), Vector3d::Zero()); }
 
 /// Forces and steps of a level drive, given in the tilted `odom`.
@@ -69,7 +69,7 @@ TEST(UpDirection, NeedsForces) {
 }
 
 TEST(GroundSlope, IsLevelAcrossAStraightStreet) {
-  // 20 m along x of an `odom` that leans: the slope along x is measured, that along y is the level's.
+  // 20 m along x of a tilted `odom`: the slope along x is measured, that along y is the level's.
   const Vector3d up = tiltedOdom().q() * Vector3d::UnitZ();
   const Eigen::Vector2d exact(-up.x() / up.z(), -up.y() / up.z());
   GroundSlope slope;
