@@ -15,7 +15,7 @@ namespace segway_drivers {
 namespace {
 
 constexpr TimeNs kReaderWait = 2'000'000;        // ns
-constexpr TimeNs kSnapshotPeriod = 100'000'000;  // ns, between updates of what the diagnostics show
+constexpr TimeNs kSnapshotPeriod = 100'000'000;  // ns, between updates of the diagnostics
 
 }  // namespace
 
