@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Errors of stamps beyond the least delay, by rate and by the kind of delays.
+// Measures errors of stamps beyond the minimum delay, by rate and delay model.
 //
 //   segway_drivers-bench-stamps [-o FILE.json] [--trials N]
 #include <algorithm>
@@ -24,13 +24,13 @@ constexpr double kDuration = 240.0, kLeastDelay = 1e-3;  // s
 
 struct DelayCase {
   std::string name;
-  Delay delay;          // s, of a time in s
-  double known = 2.0;   // s after which the delays can be known
+  Delay delay;          // s, as a function of time in s
+  double known = 2.0;   // s after which the delays are observable
   double settled = 60;  // s
 };
 
 struct StampErrors {
-  double early = 0.0, settled = 0.0;  // s, the largest
+  double early = 0.0, settled = 0.0;  // s, maxima
   long judged = 0, within = 0;
 };
 

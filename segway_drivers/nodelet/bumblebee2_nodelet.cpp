@@ -28,8 +28,8 @@ constexpr TimeNs kStereoStalled = 500'000'000;  // ns
 
 }  // namespace
 
-/// Stereo camera. With rectify: none `stereo/{left,right}/image_raw` as the imagers sent it, with `camera_info` where
-/// that is given; with factory `image_rect`, grey, and `camera_info`.
+/// Stereo camera. With rectify: none it publishes `stereo/{left,right}/image_raw` as sent by the imagers, and
+/// `camera_info` if given; with factory `image_rect`, grey, and `camera_info`.
 class Bumblebee2Nodelet : public CameraNodelet {
  public:
   ~Bumblebee2Nodelet() override { shutDown(); }
@@ -75,7 +75,7 @@ class Bumblebee2Nodelet : public CameraNodelet {
     right_info_ = makeInfo(calibration, calibration.baseline);
   }
 
-  /// Calibration that is published with raw images: of two files, or of the bag that feeds a simulation.
+  /// Loads the calibration published with raw images: from two files, or from the bag of a simulation.
   void loadInfos() {
     const std::string& files = parameters().bumblebee2_camera_info;
     const std::size_t comma = files.find(',');

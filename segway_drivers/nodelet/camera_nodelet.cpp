@@ -73,7 +73,7 @@ std::unique_ptr<FrameSource> CameraNodelet::makeSource(std::string& error) {
   }
 }
 
-/// Frames wait for odometry once its statistics are published.
+/// Delays frames for odometry if its statistics are published.
 FrameReader CameraNodelet::pace(FrameReader read) {
   odometry_ = getMTNodeHandle().subscribe<urban_nav_msgs::VoStatistics>(
       nodelet_.paced_by, 100, [this](const urban_nav_msgs::VoStatisticsConstPtr& message) {
@@ -102,7 +102,7 @@ void CameraNodelet::run() {
   if (!stop_) setState(DriverState::Lost, "the recording has ended");
 }
 
-/// Until the camera vanishes or its stream stalls. It streams from its first frame on.
+/// Runs until the camera disappears or its stream stalls. It is streaming from its first frame on.
 void CameraNodelet::stream(FrameSource& source) {
   TimeNs last = steadyTime();
   bool streams = false;

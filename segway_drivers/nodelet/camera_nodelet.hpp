@@ -22,30 +22,30 @@
 
 namespace segway_drivers {
 
-/// Nodelet of a camera: one thread opens it, reads frames and publishes; it is opened again after a loss, with pauses
-/// that grow to 2 s. The port is a GUID on the bus, or the path of a recording that feeds a simulated camera.
-/// /diagnostics come once a second.
+/// Nodelet of a camera: one thread opens it, reads frames and publishes; it is reopened after a loss, with pauses that
+/// increase to 2 s. The port is a GUID on the bus, or the path of a recording for a simulated camera. Publishes
+/// /diagnostics once per second.
 class CameraNodelet : public nodelet::Nodelet {
  public:
   ~CameraNodelet() override;
 
  protected:
-  /// Ends the thread. To be called by the destructor of the derived class, whose members the thread uses.
+  /// Ends the thread. Must be called by the destructor of the derived class, whose members the thread uses.
   void shutDown();
   /// Prefix of the device's rows in the table, such as "bumblebee2".
   virtual std::string device() const = 0;
-  /// Beginning of the camera's model on the bus.
+  /// Prefix of the camera model on the bus.
   virtual std::string model() const = 0;
   /// Advertises topics. Errors are fatal.
   virtual void prepare() = 0;
   virtual FrameReader readBag(const std::string& bag) = 0;
   virtual SimCameraOptions::Model simulatedModel() const = 0;
-  /// Makes the camera's driver over a source that lives as long as the nodelet.
+  /// Makes the driver of the camera on a source that outlives it.
   virtual void makeCamera(FrameSource& source) = 0;
   virtual bool start(std::string& error) = 0;
   /// Waits up to `wait` ns for a frame and publishes it.
   virtual void step(TimeNs wait) = 0;
-  /// ns without a frame after which the stream counts as stalled.
+  /// Returns the time without frames after which the stream is stalled, ns.
   virtual TimeNs stalledAfter() const = 0;
   virtual const std::string& identity() const = 0;
   virtual const DeviceCounters& counters() const = 0;
@@ -56,9 +56,9 @@ class CameraNodelet : public nodelet::Nodelet {
   const Parameters& parameters() const { return parameters_; }
   bool isSimulated() const;
   ros::Time toRos(TimeNs steady) const;
-  /// A frame with this stamp has been published.
+  /// Reports a published frame with this stamp.
   void countFrame(TimeNs stamp) { pacer_.sent(static_cast<TimeNs>(toRos(stamp).toNSec()), steadyTime()); }
-  /// Publishes raw arrival and time of the bus on time_reference.
+  /// Publishes raw arrival and bus time on time_reference.
   void publishTimeReference(const std::string& frame, TimeNs arrival, double bus_s) const;
 
  private:
@@ -76,11 +76,11 @@ class CameraNodelet : public nodelet::Nodelet {
   ros::Publisher time_reference_;
   std::unique_ptr<FrameSource> source_;
   FramePacer pacer_;
-  ros::Subscriber odometry_;  // paces the camera
+  ros::Subscriber odometry_;  // sets the pace of the camera
   DeviceDiagnostics diagnostics_;
   std::thread reader_;
   std::atomic<bool> stop_{false};
-  int openings_ = 0;  // of the reading thread
+  int openings_ = 0;  // accessed by the reading thread
 };
 
 }  // namespace segway_drivers

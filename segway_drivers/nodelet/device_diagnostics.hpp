@@ -13,7 +13,7 @@
 
 namespace segway_drivers {
 
-/// What the diagnostics of every device show.
+/// Contents of the diagnostics of every device.
 struct DeviceSnapshot {
   DriverState state = DriverState::Absent;
   std::string identity;
@@ -21,13 +21,13 @@ struct DeviceSnapshot {
   DeviceCounters counters;
 };
 
-/// Publishes the state of a device on /diagnostics once a second. set() may be called in any thread.
+/// Publishes the state of a device on /diagnostics once per second. set() may be called in any thread.
 class DeviceDiagnostics {
  public:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
-  /// `nh`, `private_nh`, `name`: of the nodelet. `more`: adds the rows that only this device has; called in a thread of
-  /// ROS until stop().
+  /// `nh`, `private_nh`, `name`: of the nodelet. `more`: adds device-specific rows; called in a thread of ROS until
+  /// stop().
   void start(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh, const std::string& name,
              const std::string& hardware, const std::string& port, std::function<void(Status&)> more);
   void stop() { timer_.stop(); }
@@ -41,7 +41,7 @@ class DeviceDiagnostics {
   std::function<void(Status&)> more_;
   std::unique_ptr<diagnostic_updater::Updater> updater_;
   ros::WallTimer timer_;
-  mutable std::mutex mutex_;  // guards what follows
+  mutable std::mutex mutex_;  // guards the following members
   DeviceSnapshot snapshot_;
 };
 

@@ -12,8 +12,8 @@
 namespace segway_drivers {
 
 /// Reads rows of the nodelet and keys of its device, which stand side by side in the private namespace. `device`:
-/// prefix of the device's rows in the table. Throws UserError naming an unknown parameter or a value that is not
-/// allowed.
+/// prefix of the device's rows in the table. Throws UserError with an unknown parameter or a value out of
+/// range.
 std::pair<NodeletParameters, Parameters> readDeviceParameters(const ros::NodeHandle& private_handle,
                                                               const std::string& device);
 

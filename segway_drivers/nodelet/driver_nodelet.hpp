@@ -21,13 +21,13 @@
 namespace segway_drivers {
 
 /// Nodelet of a driver. One thread reads, ticks and writes on the steady clock and never waits for ROS; another
-/// publishes. /diagnostics come once a second. The port may be missing at the start and may vanish.
+/// publishes. Publishes /diagnostics once per second. The port may be missing at the start and may disappear.
 class DriverNodelet : public nodelet::Nodelet {
  public:
   ~DriverNodelet() override;
 
  protected:
-  /// Ends both threads. To be called by the destructor of the derived class, whose members the threads use.
+  /// Ends both threads. Must be called by the destructor of the derived class, whose members the threads use.
   void shutDown();
   /// Advertises topics and makes the driver, whose callbacks publish(). Errors are fatal.
   virtual std::unique_ptr<DriverCore> makeDriver(const Parameters& parameters) = 0;
@@ -35,14 +35,14 @@ class DriverNodelet : public nodelet::Nodelet {
   virtual std::string device() const = 0;
   /// Called by the reading thread before each step.
   virtual void beforeStep(TimeNs /*now*/) {}
-  /// More rows of the diagnostics; called under lock() by the thread of ROS.
+  /// Adds device-specific rows of the diagnostics; called under lock() by the thread of ROS.
   virtual void addDiagnostics(diagnostic_updater::DiagnosticStatusWrapper& /*status*/) {}
 
   const NodeletParameters& nodelet() const { return nodelet_; }
   std::string frameOr(const std::string& otherwise) const {
     return nodelet_.frame.empty() ? otherwise : nodelet_.frame;
   }
-  /// ROS time of a steady time. For callbacks of the driver.
+  /// Returns the ROS time of a steady time. For callbacks of the driver.
   ros::Time toRos(TimeNs steady) const;
   /// Queues work for the publishing thread. For callbacks of the driver.
   void publish(std::function<void()> work) { queue_.push(std::move(work)); }
@@ -66,7 +66,7 @@ class DriverNodelet : public nodelet::Nodelet {
   std::thread reader_, publisher_;
   std::atomic<bool> stop_{false};
 
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the following members
   std::string remark_, last_warning_;
   double offset_s_ = 0.0, skew_ppm_ = 0.0, sigma_us_ = 0.0, excess_ms_ = 0.0;
   bool has_clock_ = false;

@@ -39,7 +39,7 @@ sensor_msgs::NavSatFix toNavSatFix(const GpsFix& fix) {
 
 }  // namespace
 
-/// Receiver: `gps/fix` for each cycle, without a fix too, and `gps/vel` in ENU.
+/// Receiver: publishes `gps/fix` for each cycle, also without a fix, and `gps/vel` in ENU.
 class GpsNodelet : public DriverNodelet {
  public:
   ~GpsNodelet() override { shutDown(); }

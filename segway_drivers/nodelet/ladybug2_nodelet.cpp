@@ -25,8 +25,8 @@ constexpr std::size_t kRingCameras = 5;
 
 }  // namespace
 
-/// Panoramic camera: `ladybug/raw` as frames arrive; `ladybug/camera{0..4}/image_raw` and `image_raw/compressed`,
-/// upright at half resolution, only for cameras that have a subscriber.
+/// Panoramic camera: publishes `ladybug/raw` as received; `ladybug/camera{0..4}/image_raw` and `image_raw/compressed`,
+/// upright at half resolution, only for cameras with a subscriber.
 class Ladybug2Nodelet : public CameraNodelet {
  public:
   ~Ladybug2Nodelet() override { shutDown(); }

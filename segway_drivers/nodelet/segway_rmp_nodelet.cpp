@@ -23,7 +23,8 @@ constexpr double kUnmeasured = 1e6;
 
 }  // namespace
 
-/// Base: `cmd_vel` in; `wheel_odom` and `battery` out; ~emergency_stop (true stops, false releases).
+/// Base: subscribes to `cmd_vel`; publishes `wheel_odom` and `battery`; service ~emergency_stop (true stops, false
+/// releases).
 class SegwayRmpNodelet : public DriverNodelet {
  public:
   ~SegwayRmpNodelet() override { shutDown(); }
@@ -55,7 +56,7 @@ class SegwayRmpNodelet : public DriverNodelet {
     return driver;
   }
 
-  /// The reading thread is the sending thread: it takes the latest wish, and the guard decides what is sent.
+  /// The reading thread also sends: it takes the latest command, which the guard limits.
   void beforeStep(TimeNs) override {
     const std::lock_guard<std::mutex> guard(wish_mutex_);
     if (wish_) driver_->guard().setWish(wish_->first, wish_->second);
@@ -125,7 +126,7 @@ class SegwayRmpNodelet : public DriverNodelet {
   double speed_ = 0.0, yaw_rate_ = 0.0, voltage_ = 0.0;
   TimeNs last_battery_ = 0;
 
-  std::mutex wish_mutex_;  // guards what follows
+  std::mutex wish_mutex_;  // guards the following members
   std::optional<std::pair<RmpCommand, TimeNs>> wish_;
   std::optional<bool> stop_wish_;
 };

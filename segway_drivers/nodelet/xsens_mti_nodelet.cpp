@@ -11,7 +11,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr double kMtiFieldUnit = 50e-6;  // T: the device measures in units of the field where it was calibrated
+constexpr double kMtiFieldUnit = 50e-6;  // T: the unit of the device is the field at its calibration
 
 void setVector(const MtiSample::Vector& from, geometry_msgs::Vector3& to) {
   to.x = from[0];
@@ -21,7 +21,7 @@ void setVector(const MtiSample::Vector& from, geometry_msgs::Vector3& to) {
 
 }  // namespace
 
-/// Inertial unit: `imu/data` in the axes of the sensor, orientation to ENU, and `imu/mag`.
+/// Inertial unit: publishes `imu/data` in the axes of the sensor, orientation to ENU, and `imu/mag`.
 class XsensMtiNodelet : public DriverNodelet {
  public:
   ~XsensMtiNodelet() override { shutDown(); }

@@ -7,7 +7,7 @@
 
 namespace segway_drivers {
 
-/// Parameters of all drivers; one member per row of table(), which documents each. A row is named DEVICE.KEY.
+/// Parameters of all drivers; one member per row of table(). A row is named DEVICE.KEY.
 struct Parameters {
   double lms291_latency_ms;
   int lms291_measuring_mode;
@@ -39,7 +39,7 @@ struct Parameters {
   Parameters();
 };
 
-/// The table: the only place where a default, a range, a unit or a sentence about a parameter stands.
+/// Returns the table, the only definition of defaults, ranges, units and descriptions.
 const urban_nav_core::Table<Parameters>& table();
 
 }  // namespace segway_drivers

@@ -65,7 +65,7 @@ std::vector<std::string> withAndWithoutSlash(const std::map<std::string, std::si
   return names;
 }
 
-/// Groups of images with one stamp, one of each topic.
+/// Groups images of one stamp, one of each topic.
 class BagGroups {
  public:
   BagGroups(const std::string& path, std::map<std::string, std::size_t> topics, std::size_t size)
@@ -78,7 +78,7 @@ class BagGroups {
       throw urban_nav_core::UserError(path, "no images", "a bag with the images of this camera");
   }
 
-  /// The next complete group; sets the times of `frame`. Empty at the end.
+  /// Returns the next complete group and sets the times of `frame`. Empty at the end.
   std::optional<std::vector<cv::Mat>> next(const std::function<cv::Mat(const RecordedMessage&)>& decode,
                                            SimFrame& frame) {
     while (const std::optional<RecordedMessage> message = messages_.next()) {
@@ -97,7 +97,7 @@ class BagGroups {
   }
 
  private:
-  std::map<std::string, std::size_t> topics_;  // by place in the group
+  std::map<std::string, std::size_t> topics_;  // position in the group
   std::size_t size_;
   Recording recording_;
   RecordedMessages messages_;

@@ -8,7 +8,7 @@ namespace segway_drivers {
 
 namespace {
 
-/// The four cubic basis functions that are not zero at u, by de Boor's recurrence.
+/// The four non-zero cubic basis functions at u, by de Boor's recurrence.
 struct SplineBasis {
   std::array<double, 4> values{};
   int first = 0;  // index of the first

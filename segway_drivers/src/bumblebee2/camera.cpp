@@ -15,7 +15,7 @@ constexpr std::size_t kBb2TrialFrames = 5;
 constexpr double kBb2TrialTolerance = 1e-3;  // s
 constexpr int kBb2OrderFrames = 5;
 
-/// Whether times advance by whole frame periods.
+/// Returns whether times advance by multiples of the frame period.
 bool advances(const std::vector<double>& times, double period) {
   for (std::size_t i = 1; i < times.size(); ++i) {
     double step = times[i] - times[i - 1];
@@ -88,7 +88,7 @@ std::optional<Bb2StampedPair> Bb2Camera::next(TimeNs timeout) {
   return pair;
 }
 
-/// The place of the embedded words whose times advance by the frame period over five frames.
+/// Finds the location of the embedded words whose times advance by the frame period over five frames.
 bool Bb2Camera::findEmbedding(const CameraFrame& raw) {
   for (const Bb2Embedding embedding : {Bb2Embedding::Raw, Bb2Embedding::Imager}) {
     std::vector<double>& times = candidate_times_[static_cast<std::size_t>(embedding)];

@@ -35,7 +35,7 @@ std::vector<CalibrationLine> splitCalibration(const std::string& text) {
   return lines;
 }
 
-/// Reads the lines of a calibration in turn.
+/// Reads the lines of a calibration in order.
 class CalibrationReader {
  public:
   CalibrationReader(const std::string& text, std::string name)
@@ -60,7 +60,7 @@ class CalibrationReader {
     if (values.size() < count) refuse(line, std::to_string(count) + " numbers");
     return values;
   }
-  /// Numbers of the lines that follow, up to `count`; the key of such a line is a number too.
+  /// Returns the numbers of the following lines, up to `count`; the key of such a line is also a number.
   std::vector<double> following(std::size_t count) {
     std::vector<double> values;
     while (!atEnd() && values.size() < count) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr unsigned kDmaBuffers = 8;
 
-/// Calls of libdc1394 and nothing else.
+/// Wraps libdc1394.
 class BusCamera : public FrameSource {
  public:
   BusCamera(const std::string& guid, std::string model)

@@ -14,7 +14,7 @@ std::optional<double> parseBusTime(std::uint32_t word) {
 TimeNs hostTimeOfBusTime(double event_s, double now_s, TimeNs now) {
   double age = std::fmod(now_s - event_s, kBusTimeWrap);
   if (age < 0.0) age += kBusTimeWrap;
-  if (age > kBusTimeWrap - 1.0) age -= kBusTimeWrap;  // an event just after the instant
+  if (age > kBusTimeWrap - 1.0) age -= kBusTimeWrap;  // an event shortly after the instant
   return now - static_cast<TimeNs>(std::llround(1e9 * age));
 }
 

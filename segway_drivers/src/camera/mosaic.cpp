@@ -16,7 +16,7 @@ std::optional<MosaicPattern> parseMosaicPattern(const std::string& text) {
 }
 
 cv::Mat demosaic(const cv::Mat& mosaic, MosaicPattern pattern) {
-  // OpenCV names a pattern by the second row's second and third pixel.
+  // OpenCV names a pattern by the second and third pixel of the second row.
   int code = 0;
   switch (pattern) {
     case MosaicPattern::None: return mosaic;

@@ -24,7 +24,7 @@ bool configureCamera(SimSource& source, SimCameraOptions::Model model) {
   return Bb2Camera(source, {}).start(error);
 }
 
-/// Cuts the padding of the container, as the driver does for ladybug/raw.
+/// Removes the padding of the container, as the driver does for ladybug/raw.
 void cutPadding(Bytes& bytes, SimCameraOptions::Model model) {
   if (model == SimCameraOptions::Model::Bumblebee2 || bytes.size() < 0x0C) return;
   bytes.resize(std::min<std::size_t>(bytes.size(), bigWord32(bytes.data() + 0x08)));
@@ -36,7 +36,7 @@ std::uint32_t sequenceInFrame(const Bytes& bytes, SimCameraOptions::Model model)
   return frame ? frame->sequence : 0;
 }
 
-/// End of the loss that the camera is in, s since the session began.
+/// Returns the end of the current loss of the camera, s since the start of the session.
 double endOfLoss(const std::vector<SimCameraFault>& faults, double t) {
   double end = t;
   for (const SimCameraFault& fault : faults) {

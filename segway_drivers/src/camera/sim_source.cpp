@@ -12,7 +12,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr TimeNs kRing = 400'000'000;  // ns for which a frame waits in the ring of buffers
+constexpr TimeNs kRing = 400'000'000;  // ns, lifetime of a frame in the ring buffer
 constexpr std::uint64_t kSimPattern = 0x1040, kSimDataFormat = 0x1048, kSimEmbedded = 0x12F8, kSimSensor = 0x1F28,
                         kSimBaseSerial = 0x1F20, kSimHeadSerial = 0x1F80;
 constexpr std::size_t kLadybugSequenceAt = 0x20;
@@ -113,8 +113,8 @@ TimeNs SimSource::dueTime(const SimFrame& frame) const {
   return begin_.value_or(0) + static_cast<TimeNs>(1e9 * (frame.time + options_.transfer));
 }
 
-/// A camera exposes while its driver works; a recording is decoded in the driver's own time. What decoding takes is
-/// therefore added to the time at which the frame is in the ring: a slow machine delays the session and loses nothing.
+/// A camera exposes while its driver works, whereas a recording is decoded by the thread of the driver. The time of
+/// decoding is therefore added to the arrival of the frame: a slow machine delays the session without loss.
 void SimSource::read() {
   const TimeNs begin = clock_.now();
   waiting_ = read_();
@@ -162,7 +162,7 @@ void SimSource::embed(SimFrame& frame) const {
 
 std::optional<CameraCycle> SimSource::readCycle() {
   if (isGone() || !begin_) return std::nullopt;
-  // One reading of the clock for both: the thread may be preempted between two.
+  // One reading of the clock for both, since the thread may be preempted between two.
   const TimeNs now = clock_.now();
   return CameraCycle{busTime(1e-9 * static_cast<double>(now - *begin_)), now};
 }

@@ -10,24 +10,24 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr double kLeastSigma = 10e-6;       // s
-constexpr double kAcquisition = 2.0;        // s in which lower arrivals are no surprise
-constexpr double kYoung = 20.0;             // s in which the line still improves fast
-constexpr double kGatedFrom = 60.0;         // s after which the skew may change slowly only
-constexpr double kDisproof = 0.5e-3;        // s below the line
-constexpr double kContradiction = 0.25;     // s below the line that no backlog explains
-constexpr int kPassingContradiction = 5;    // measurements
-constexpr double kLateLimit = 0.05;         // s above the line
-constexpr double kLateDuration = 1.0;       // s
-constexpr double kRefusedLimit = 600.0;     // s without an accepted skew
-constexpr double kSlewRate = 1e-3;          // s/s, of corrections after acquisition
-constexpr double kYoungSlewRate = 10e-3;    // s/s
-constexpr double kSkewGate = 2.0;           // standard deviations of a slope beyond the accepted change
-constexpr double kSkewDrift = 1e-6 / 60.0;  // 1/s, of a crystal that warms up
-constexpr double kMemoryOfChange = 0.98;    // per estimate, one a second
-constexpr double kHardFrom = 3.0;           // s after which the data may show a skew beyond the tolerance
-constexpr double kMostBias = 1e-3;          // s
-constexpr double kUnknownSpacing = 5e-3;    // s
+constexpr double kLeastSigma = 10e-6;                      // s
+constexpr double kAcquisition = 2.0;                       // s in which lower arrivals are expected
+constexpr double kYoung = 20.0;                            // s in which the line still improves quickly
+constexpr double kGatedFrom = 60.0;                        // s after which the skew may change only slowly
+constexpr double kDisproof = 0.5e-3;                       // s below the line
+constexpr double kContradiction = 0.25;                    // s below the line, beyond any backlog
+constexpr int kPassingContradiction = 5;                   // measurements
+constexpr double kLateLimit = 0.05;                        // s above the line
+constexpr double kLateDuration = 1.0;                      // s
+constexpr double kRefusedLimit = 600.0;                    // s without an accepted skew
+constexpr double kSlewRate = 1e-3;                         // s/s, of corrections after acquisition
+constexpr double kYoungSlewRate = 10e-3;                   // s/s
+constexpr double kSkewGate = 2.0;                          // standard deviations of a slope beyond the accepted change
+constexpr double kSkewDrift = 1e-6 / 60.0;                 // 1/s, of a crystal that warms up
+constexpr double kMemoryOfChange = 0.98;                   // per estimate, one a second
+constexpr double kHardFrom = 3.0;                          // s after which a skew beyond the tolerance is accepted
+constexpr double kMostBias = 1e-3;                         // s
+constexpr double kUnknownSpacing = 5e-3;                   // s
 constexpr double kBlockPeriods = 32.0, kLeastBlock = 0.5;  // s
 constexpr std::size_t kMostPoints = 16384;
 
@@ -75,7 +75,7 @@ void ClockFilter::beginEpoch(const ClockPoint& point, bool offset_known, bool ke
   now_.mean_x = point.x;
 }
 
-/// Begins an epoch, and keeps the one before in case the contradiction passes.
+/// Begins an epoch, and keeps the previous one in case the contradiction is temporary.
 void ClockFilter::contradict(const ClockPoint& point, bool offset_known, bool keep_latest) {
   ++epoch_;
   since_contradiction_ = 0;
@@ -83,7 +83,7 @@ void ClockFilter::contradict(const ClockPoint& point, bool offset_known, bool ke
   beginEpoch(point, offset_known, keep_latest);
 }
 
-/// Restores the epoch before a contradiction if the point fits it and not the present one.
+/// Restores the epoch before a contradiction if the point fits it and not the current one.
 bool ClockFilter::returnToEarlier(const ClockPoint& point, bool is_contradicted) {
   if (!earlier_) return false;
   const double distance = residual(*earlier_, point);
@@ -152,8 +152,8 @@ bool ClockFilter::isDisproved(double residual, double age) const {
   return age > kAcquisition && residual < -std::max(kDisproof, (age < kYoung ? 8.0 : 5.0) * now_.sigma);
 }
 
-/// Late by several periods for a second while arrivals keep the pace of the device: not a backlog, which arrives faster
-/// than it was measured.
+/// Returns whether arrivals have been late by several periods for a second at the rate of the device: not a backlog,
+/// which arrives faster than measured.
 bool ClockFilter::isPersistentlyLate(const ClockPoint& point, double residual) {
   if (residual < std::max(kLateLimit, 3.0 * options_.period)) {
     now_.late_since.reset();
@@ -204,8 +204,8 @@ void ClockFilter::fit() {
   now_.mean_excess = std::max(fitted->mean_z - now_.line - now_.skew * (fitted->mean_x - now_.begin_x), 0.0);
 }
 
-/// Takes the slope as it is while the epoch is young, weighted with what was known before; later only a small change,
-/// and only from a floor that is known better than the skew is by now.
+/// Accepts the slope, weighted with the prior, while the epoch is young; later only a small change, and only if the
+/// slope is more certain than the current skew.
 void ClockFilter::acceptSkew(double slope, double slope_sigma, double age) {
   const double x = now_.points.back().x;
   if (age < kGatedFrom) {
@@ -221,7 +221,7 @@ void ClockFilter::acceptSkew(double slope, double slope_sigma, double age) {
   }
   const double change = std::abs(slope - now_.skew), known = now_.skew_sigma + kSkewDrift * (x - now_.accepted_at);
   if (change > options_.max_skew_change + kSkewGate * slope_sigma || slope_sigma > known) return;
-  // A change beyond chance may be the onset of a tilt: it counts as uncertainty for a while.
+  // A significant change may be the onset of a tilt: it is temporarily added to the uncertainty.
   now_.skew_sigma = std::max({slope_sigma, 0.5 * change, kMemoryOfChange * now_.skew_sigma});
   now_.skew = slope;
   now_.accepted_at = x;
@@ -232,10 +232,10 @@ void ClockFilter::updateSigma(double x) {
   now_.sigma = std::max(kLeastSigma, std::hypot(2.0 * now_.spacing.value_or(kUnknownSpacing), of_skew));
 }
 
-/// Time on the line less the expected bias of its height, slewed after acquisition, later than the one before in the
-/// same epoch.
+/// Returns the time on the line minus the expected bias of its height, slewed after acquisition, later than the
+/// previous one of the same epoch.
 TimeNs ClockFilter::toStamp(double x) {
-  // The least delay so far exceeds the floor by the distance between low delays in the mean: matters while it is large.
+  // The observed minimum delay exceeds the floor on average by the distance between low delays.
   const double age = x - now_.begin_x;
   const double bias = std::max(0.0, 1.0 - age / kYoung) * std::min(now_.spacing.value_or(0.0), kMostBias);
   double host = x + now_.line - bias + now_.skew * age;

@@ -36,7 +36,7 @@ struct DecayMoments {
 struct SlopeMoments {
   double zeroth = 0.0, first = 0.0, second = 0.0;
 
-  /// Adds a stretch of the density that begins with `density` at `from` and falls at `rate` over `length` upwards
+  /// Adds a segment of the density that begins with `density` at `from` and decays at `rate` over `length` upwards
   /// (`sign` 1) or downwards (-1).
   void add(double density, double from, double sign, double rate, double length) {
     const DecayMoments moments(rate, length);
@@ -49,7 +49,7 @@ struct SlopeMoments {
 }  // namespace
 
 SlopeEstimate estimateFloorSlope(const std::vector<ClockPoint>& hull, double mean_x, double spacing) {
-  // The edge over the mean, where h is largest.
+  // The edge over the mean, at which h is largest.
   std::size_t top = 1;
   while (top + 1 < hull.size() && hull[top].x < mean_x) ++top;
   const double peak = hullEdgeSlope(hull[top - 1], hull[top]);

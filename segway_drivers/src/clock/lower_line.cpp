@@ -10,7 +10,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr std::size_t kFewestBlocks = 6;  // below that every point belongs to the floor
+constexpr std::size_t kFewestBlocks = 6;  // with fewer blocks every point belongs to the floor
 constexpr double kWidestFloor = 6.0;      // times the median step between lowest points of adjacent blocks
 constexpr double kLeastFloor = 0.1e-3;    // s
 constexpr double kLeastSpacing = 1e-7;    // s
@@ -32,14 +32,14 @@ std::vector<ClockBlock> cutIntoBlocks(const ClockPoint* points, std::size_t coun
   return blocks;
 }
 
-/// Lowest value of z - slope x.
+/// Returns the lowest value of z - slope x.
 double lowestAlong(const std::vector<ClockPoint>& hull, double slope) {
   double lowest = hull.front().z - slope * hull.front().x;
   for (const ClockPoint& point : hull) lowest = std::min(lowest, point.z - slope * point.x);
   return lowest;
 }
 
-/// Height above a line up to which a block belongs to its floor, s.
+/// Returns the height above a line up to which a block belongs to its floor, s.
 double floorHeight(const std::vector<ClockBlock>& blocks, double skew) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < blocks.size(); ++i)
@@ -51,8 +51,8 @@ double floorHeight(const std::vector<ClockBlock>& blocks, double skew) {
 
 double clockEdgeSlope(const ClockPoint& a, const ClockPoint& b) { return (b.z - a.z) / (b.x - a.x); }
 
-/// Slope of the edge with the least sum of heights of the blocks, each counted up to `height`; empty if no edge is
-/// within the limit.
+/// Returns the slope of the edge with the smallest sum of block heights, each truncated at `height`; empty if no edge
+/// is within the limit.
 std::optional<double> slopeOfMostBlocks(const std::vector<ClockPoint>& hull, const std::vector<ClockBlock>& blocks,
                                         double height, double limit) {
   std::optional<double> best;
@@ -71,7 +71,7 @@ std::optional<double> slopeOfMostBlocks(const std::vector<ClockPoint>& hull, con
   return best;
 }
 
-/// Mean distance in height above a slope between neighbours of the lowest quarter of the points, s.
+/// Returns the mean spacing in height above a slope of the lowest quarter of the points, s.
 double floorSpacing(const std::vector<ClockPoint>& points, double slope) {
   std::vector<double> heights;
   heights.reserve(points.size());
@@ -82,7 +82,7 @@ double floorSpacing(const std::vector<ClockPoint>& points, double slope) {
   return (heights[count] - lowest) / static_cast<double>(count);
 }
 
-/// Averages the slope with that of a stretch of raised delays, if that has a floor of its own which agrees with it.
+/// Averages the slope with that of an interval of raised delays if the latter has a floor that agrees with it.
 void includeRaised(const std::vector<ClockPoint>& points, SlopeEstimate& slope) {
   if (points.size() < kFewestRaised) return;
   const std::vector<ClockPoint> hull = lowerHull(points.data(), points.size());

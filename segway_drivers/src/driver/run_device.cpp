@@ -19,7 +19,7 @@ namespace {
 
 constexpr TimeNs kRunWait = 2'000'000;  // ns
 
-/// Writes stamped messages in real time.
+/// Writes messages with stamps of real time.
 class RunTable {
  public:
   RunTable(const std::string& path, const std::string& kind) : file_(path) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array<int, 4> kGpsRates = {9600, 4800, 38400, 115200};
 constexpr TimeNs kGpsLoss = 2'500'000'000, kGpsReopen = 10'000'000'000;  // ns
-constexpr int kGpsProof = 2;                                             // messages with a right checksum
+constexpr int kGpsProof = 2;                                             // messages with a correct checksum
 
 }  // namespace
 

@@ -11,7 +11,7 @@ struct GpsDate {
   int year, month, day;
 };
 
-/// Gregorian date of days since 1970-01-01, counted in 400-year cycles from 1 March of year 0.
+/// Returns the Gregorian date of days since 1970-01-01, by 400-year cycles from 1 March of year 0.
 GpsDate dateOfDays(std::int64_t days) {
   const std::int64_t z = days + 719468, era = (z >= 0 ? z : z - 146096) / 146097;
   const std::int64_t day_of_era = z - era * 146097;

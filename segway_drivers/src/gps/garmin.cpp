@@ -13,7 +13,7 @@ constexpr std::size_t kGarminPvtSize = 64;
 constexpr double kGarminDegree = 180.0 / 3.14159265358979323846;
 constexpr std::int64_t kGarminEpoch = 7304;                                 // days from 1970 to 31 December 1989
 constexpr std::int64_t kRolloverDays = 7168;                                // 1024 weeks
-constexpr std::int64_t kDaysOf2017 = 17167;                                 // leap second 18 began
+constexpr std::int64_t kDaysOf2017 = 17167;                                 // introduction of leap second 18
 constexpr double kGarminHalfCircular = 1.1774, kGarminHalfNormal = 0.6745;  // 50 % levels in sigmas
 
 }  // namespace

@@ -30,7 +30,7 @@ std::optional<double> gpsdSigma(const nlohmann::json& object, const char* key, d
   return value && *value > 0.0 ? std::optional<double>(*value / level) : std::nullopt;
 }
 
-/// Status of a TPV: 2 differential, 3 and 4 fixed and floating ambiguities.
+/// Sets the status of a TPV: 2 differential, 3 and 4 fixed and floating ambiguities.
 void setGpsdStatus(std::optional<double> status, GpsFix& fix) {
   if (!status) return;
   fix.differential = *status >= 2.0 && *status <= 4.0;
@@ -38,7 +38,7 @@ void setGpsdStatus(std::optional<double> status, GpsFix& fix) {
   if (*status == 4.0) fix.carrier = GpsFix::Carrier::Float;
 }
 
-/// epx and epy by axis; where they are missing, eph, the radius of a circle; epv.
+/// Sets errors: epx and epy by axis, or eph, the radius of a circle, if they are missing; epv.
 void setGpsdErrors(const nlohmann::json& object, GpsFix& fix) {
   const auto circle = gpsdSigma(object, "eph", kGpsdCircle);
   fix.sigma_e = gpsdSigma(object, "epx");
@@ -48,7 +48,7 @@ void setGpsdErrors(const nlohmann::json& object, GpsFix& fix) {
   fix.sigma_u = gpsdSigma(object, "epv");
 }
 
-/// Text that can stand in a cell of a table.
+/// Returns the time if it is valid as a cell of a table.
 std::string gpsdTime(const nlohmann::json& object) {
   const std::string text = gpsdText(object, "time");
   const bool plain =

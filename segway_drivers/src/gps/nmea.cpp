@@ -9,7 +9,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr std::size_t kNmeaLongest = 250;  // bytes; 82 by the standard, longer in fact
+constexpr std::size_t kNmeaLongest = 250;  // bytes; 82 by the standard, longer in practice
 constexpr char kNmeaDigits[] = "0123456789ABCDEF";
 
 int nmeaDigit(std::uint8_t c) {

@@ -16,7 +16,7 @@ constexpr double kNmeaKnot = 1852.0 / 3600.0;  // m/s
 constexpr double kHalfOfCircular = 1.1774;     // 50 % radius of a circular normal distribution, in sigmas
 constexpr double kHalfOfNormal = 0.6745;       // 50 % of a normal distribution, in sigmas
 
-/// Value of `ddmm.mmmm` or `dddmm.mmmm` and its hemisphere, deg.
+/// Returns the value of `ddmm.mmmm` or `dddmm.mmmm` and its hemisphere, deg.
 std::optional<double> parseNmeaAngle(std::string_view text, std::string_view side, char negative, double limit) {
   const auto value = parseNumber(text);
   if (!value || *value < 0.0 || side.size() != 1) return std::nullopt;
@@ -26,7 +26,7 @@ std::optional<double> parseNmeaAngle(std::string_view text, std::string_view sid
   return side.front() == negative ? -angle : angle;
 }
 
-/// Milliseconds of the day of `hhmmss.sss`.
+/// Returns the milliseconds of the day of `hhmmss.sss`.
 std::optional<std::int64_t> parseNmeaTime(std::string_view text) {
   if (text.size() < 6) return std::nullopt;
   const auto hour = parseInteger(text.substr(0, 2)), minute = parseInteger(text.substr(2, 2));
@@ -37,7 +37,7 @@ std::optional<std::int64_t> parseNmeaTime(std::string_view text) {
   return *hour * 3600000 + *minute * 60000 + std::min<std::int64_t>(std::llround(1000.0 * *second), 59999);
 }
 
-/// Days since 1970 of `ddmmyy`; years from 80 on belong to the last century.
+/// Returns the days since 1970 of `ddmmyy`; years from 80 on are 1980 to 1999.
 std::optional<std::int64_t> parseNmeaDate(std::string_view text) {
   const auto number = text.size() == 6 ? parseInteger(text) : std::nullopt;
   if (!number || *number < 0) return std::nullopt;
@@ -51,13 +51,13 @@ std::optional<double> positive(std::string_view text) {
   return value && *value >= 0.0 ? value : std::nullopt;
 }
 
-/// Number above zero: receivers write 0 for a deviation that they do not know.
+/// Returns a number above zero: receivers write 0 for an unknown deviation.
 std::optional<double> aboveZero(std::string_view text) {
   const auto value = positive(text);
   return value && *value > 0.0 ? value : std::nullopt;
 }
 
-/// Place of the time among the fields of a sentence that carries one.
+/// Returns the index of the time field of a sentence with time.
 std::optional<std::size_t> timeField(std::string_view kind) {
   if (kind == "GLL") return 4;
   for (const char* each : {"GGA", "GNS", "RMC", "GST", "GBS", "ZDA"})
@@ -65,7 +65,7 @@ std::optional<std::size_t> timeField(std::string_view kind) {
   return std::nullopt;
 }
 
-/// Returns whether one of these sentences reports a position, or that there is no fix. `kinds`: each followed by a
+/// Returns whether one of these sentences reports a position or the absence of a fix. `kinds`: each followed by a
 /// blank.
 bool hasPositions(const std::string& kinds) {
   for (const char* each : {"GGA ", "GNS ", "GLL ", "RMC ", "GST "})
@@ -73,14 +73,14 @@ bool hasPositions(const std::string& kinds) {
   return false;
 }
 
-/// Quality of a fix, as the field of GGA and the letters of GNS, RMC and GLL state it.
+/// Quality of a fix, by the field of GGA and the letters of GNS, RMC and GLL.
 struct NmeaQuality {
   bool is_fix = false, is_differential = false;
   GpsFix::Carrier carrier = GpsFix::Carrier::None;
 };
 
-/// 1 autonomous, 2 differential, 3 precise, 4 and 5 fixed and floating ambiguities; 9: SBAS, as NovAtel writes it.
-/// Estimates, positions entered by hand and simulations are no fixes.
+/// Parses 1 autonomous, 2 differential, 3 precise, 4 and 5 fixed and floating ambiguities; 9 SBAS (NovAtel). Estimates,
+/// manual positions and simulations are no fixes.
 NmeaQuality readQuality(std::string_view digit) {
   const auto quality = parseInteger(digit);
   if (!quality || ((*quality < 1 || *quality > 5) && *quality != 9)) return {};
@@ -90,7 +90,7 @@ NmeaQuality readQuality(std::string_view digit) {
   return result;
 }
 
-/// One letter for each system, the best counts: A autonomous, D differential, P precise, R and F as 4 and 5 above.
+/// Parses one letter per system and takes the best: A autonomous, D differential, P precise, R and F as 4 and 5 above.
 NmeaQuality readModes(std::string_view letters) {
   NmeaQuality result;
   for (const char letter : letters) {
@@ -144,12 +144,12 @@ void NmeaFixBuilder::add(const NmeaSentence& sentence, std::uint64_t offset, Tim
   if (!ends_with_.empty() && ends_with_ == sentence.kind && last_of_several) finish(sink);
 }
 
-/// Some receivers write the time of one instant with two decimals in one sentence and with three in the next.
+/// Compares times numerically: some receivers write one time with two decimals in one sentence and three in the next.
 bool NmeaFixBuilder::isOfGroup(std::string_view time) const {
   return group_.time == time || (group_.milliseconds && parseNmeaTime(time) == group_.milliseconds);
 }
 
-/// Latitude and longitude from four fields, unless the group has them already.
+/// Sets latitude and longitude from four fields unless the group already has them.
 void NmeaFixBuilder::setPosition(const NmeaSentence& s, std::size_t first) {
   if (group_.fix.latitude) return;
   const auto latitude = parseNmeaAngle(s.field(first), s.field(first + 1), 'S', 90.0);
@@ -159,7 +159,7 @@ void NmeaFixBuilder::setPosition(const NmeaSentence& s, std::size_t first) {
   group_.fix.longitude = longitude;
 }
 
-/// Fields that GGA and GNS have in common from the number of satellites on: field 6, and the height after the dilution.
+/// Reads the common fields of GGA and GNS from the number of satellites on: field 6, and the height after the dilution.
 void NmeaFixBuilder::addHeight(const NmeaSentence& s, std::size_t geoid_field) {
   const auto satellites = parseInteger(s.field(6));
   if (satellites && *satellites >= 0 && *satellites < 100) group_.fix.satellites = static_cast<int>(*satellites);
@@ -199,7 +199,7 @@ void NmeaFixBuilder::addZda(const NmeaSentence& s) {
   if (days) days_ = group_.days = days;
 }
 
-/// Standard deviations of a GST, or the expected errors of a GBS, which yield to them.
+/// Sets the standard deviations of a GST, or otherwise the expected errors of a GBS.
 void NmeaFixBuilder::addErrors(const NmeaSentence& s) {
   GpsFix& fix = group_.fix;
   const bool is_gst = s.kind == "GST";
@@ -233,7 +233,7 @@ void NmeaFixBuilder::addOther(const NmeaSentence& s) {
   GpsFix& fix = group_.fix;
   if (s.kind == "GSA") {
     const auto mode = parseInteger(s.field(1));
-    // One of each system, of which some may have no fix.
+    // One per system, some possibly without a fix.
     if (mode && *mode >= 1 && *mode <= 3) fix.mode = std::max(fix.mode, static_cast<GpsFix::Mode>(*mode));
     if (const auto hdop = positive(s.field(15))) group_.hdop = hdop;
     if (const auto vdop = positive(s.field(16))) group_.vdop = vdop;
@@ -245,7 +245,7 @@ void NmeaFixBuilder::addOther(const NmeaSentence& s) {
   }
 }
 
-/// Derives what follows from several sentences: time with date, mode, deviations from dilutions of precision.
+/// Derives values of several sentences: time with date, mode, deviations from dilutions of precision.
 void NmeaFixBuilder::complete(GpsFix& fix) const {
   const auto days = group_.days ? group_.days : days_;
   if (group_.milliseconds) fix.utc = days ? printUtc(*days, *group_.milliseconds) : group_.time;
@@ -266,10 +266,10 @@ void NmeaFixBuilder::finish(const Sink& sink) {
   if (!open_) return;
   open_ = false;
   given_time_ = group_.time;
-  // The kind that ended two groups in a row ends the next ones too.
+  // The kind that ended two consecutive groups ends the next ones.
   ends_with_ = ended_with_ == group_.last_kind ? ended_with_ : std::string();
   ended_with_ = group_.last_kind;
-  // A date or an expected error alone, which some receivers send between their fixes, is no report of a position.
+  // Some receivers send a date or an expected error alone between fixes, which is no report of a position.
   if (!hasPositions(group_.kinds)) return;
   complete(group_.fix);
   sink(group_.fix);

@@ -18,7 +18,7 @@ constexpr std::uint32_t kCrc24Polynomial = 0x1864CFB;
 
 std::int32_t signedWord32(const std::uint8_t* bytes) { return static_cast<std::int32_t>(littleWord32(bytes)); }
 
-/// Time of a NAV-PVT, to the nearest millisecond: its nanoseconds may be negative.
+/// Returns the time of a NAV-PVT to the nearest millisecond; its nanoseconds may be negative.
 std::string ubxTime(const std::uint8_t* data) {
   constexpr std::int64_t kDay = 86'400'000;  // ms
   const unsigned valid = data[11];
@@ -87,7 +87,7 @@ FrameProbe probeRtcmFrame(ByteView bytes) {
   const std::size_t size = kRtcmHead + (bigWord(bytes.data + 1) & 0x3FFU) + kRtcmChecksum;
   if (bytes.size < size) return {Kind::Incomplete, size};
   std::uint32_t crc = 0;
-  for (std::size_t i = 0; i < size; ++i) {  // over the checksum too, which leaves zero
+  for (std::size_t i = 0; i < size; ++i) {  // including the checksum, which gives zero
     crc ^= static_cast<std::uint32_t>(bytes[i]) << 16U;
     for (int bit = 0; bit < 8; ++bit) crc = (crc << 1U) ^ ((crc & 0x800000U) != 0 ? kCrc24Polynomial : 0U);
   }

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kLongestForeign = 4096;  // bytes of a frame
 constexpr double kMostlyText = 0.9;            // share of printable bytes
 
-/// A rule of a protocol: the size of a whole frame at the head of the bytes; 0 without one.
+/// Rule of a protocol: returns the size of a complete frame at the head of the bytes, 0 without one.
 using ForeignRule = std::size_t (*)(ByteView bytes);
 
 /// SiRF binary protocol, section 2: A0 A2, length, payload, sum of its bytes in fifteen bits, B0 B3.
@@ -25,7 +25,7 @@ std::size_t sirfFrame(ByteView b) {
   return (sum & 0x7FFFU) == bigWord(b.data + size - 4) ? size : 0;
 }
 
-/// Trimble's TSIP: DLE, identifier, data with DLE doubled, DLE, ETX. Identifiers of reports are 40 to 5F, 6D, 82 to 84
+/// Trimble TSIP: DLE, identifier, data with DLE doubled, DLE, ETX. Identifiers of reports are 40 to 5F, 6D, 82 to 84
 /// and 8F (Copernicus II manual, appendix A).
 std::size_t tsipFrame(ByteView b) {
   if (b.size < 5 || b[0] != 0x10) return 0;
@@ -41,7 +41,7 @@ std::size_t tsipFrame(ByteView b) {
   return 0;
 }
 
-/// Trimble's RT17, GSOF and other packets of its data collector format: STX, status, type, length, data, sum, ETX.
+/// Trimble RT17, GSOF and other packets of the data collector format: STX, status, type, length, data, sum, ETX.
 std::size_t trimcommFrame(ByteView b) {
   if (b.size < 6 || b[0] != 0x02) return 0;
   const std::size_t length = b[3], size = length + 6;
@@ -51,7 +51,7 @@ std::size_t trimcommFrame(ByteView b) {
   return (sum & 0xFFU) == b[size - 2] ? size : 0;
 }
 
-/// NovAtel's OEM binary: AA 44 12 with the length of the header, or AA 44 13 with a short one; without the checksum.
+/// NovAtel OEM binary: AA 44 12 with the length of the header, or AA 44 13 with a short one; without the checksum.
 std::size_t novatelFrame(ByteView b) {
   if (b.size < 16 || b[0] != 0xAA || b[1] != 0x44 || (b[2] != 0x12 && b[2] != 0x13)) return 0;
   const bool is_short = b[2] == 0x13;
@@ -59,14 +59,14 @@ std::size_t novatelFrame(ByteView b) {
   return size <= kLongestForeign && b.size >= size && size > 16 ? size : 0;
 }
 
-/// Septentrio's SBF: "$@", CRC, identifier, length, which is a multiple of four.
+/// Septentrio SBF: "$@", CRC, identifier, length, a multiple of four.
 std::size_t sbfFrame(ByteView b) {
   if (b.size < 8 || b[0] != 0x24 || b[1] != 0x40) return 0;
   const std::size_t size = littleWord(b.data + 6);
   return size >= 8 && size % 4 == 0 && size <= kLongestForeign && b.size >= size ? size : 0;
 }
 
-/// SkyTraq's binary: A0 A1, length, payload, XOR of its bytes, CR, LF.
+/// SkyTraq binary: A0 A1, length, payload, XOR of its bytes, CR, LF.
 std::size_t skytraqFrame(ByteView b) {
   if (b.size < 7 || b[0] != 0xA0 || b[1] != 0xA1) return 0;
   const std::size_t length = bigWord(b.data + 2), size = length + 7;
@@ -76,7 +76,7 @@ std::size_t skytraqFrame(ByteView b) {
   return sum == b[size - 3] ? size : 0;
 }
 
-/// UBX whose checksums are wrong, as where bytes were lost: the next frame begins where this one ends.
+/// UBX with wrong checksums, as after loss of bytes: the next frame begins at the end of this one.
 std::size_t ubxFrame(ByteView b) {
   if (b.size < 8 || b[0] != 0xB5 || b[1] != 0x62) return 0;
   const std::size_t size = 8U + littleWord(b.data + 4);
@@ -98,7 +98,7 @@ constexpr std::array<ForeignProtocol, 7> kForeign = {{
     {"UBX whose checksums are wrong: bytes were lost or changed on the line", ubxFrame},
 }};
 
-/// Returns how many bytes are frames by a rule.
+/// Returns the number of bytes in frames by a rule.
 std::size_t framedBytes(ByteView bytes, ForeignRule rule) {
   std::size_t framed = 0;
   for (std::size_t at = 0; at < bytes.size;) {
@@ -109,7 +109,7 @@ std::size_t framedBytes(ByteView bytes, ForeignRule rule) {
   return framed;
 }
 
-/// Returns how many lines begin as sentences do: "$GP", "$GN", "!AIVDM".
+/// Returns the number of lines that begin like sentences: "$GP", "$GN", "!AIVDM".
 std::size_t countSentences(ByteView bytes) {
   std::size_t count = 0;
   for (std::size_t i = 0; i + 6 < bytes.size; ++i) {
@@ -141,7 +141,7 @@ std::string describeUnknownStream(ByteView bytes) {
     most = framed;
     best = protocol.text;
   }
-  if (best != nullptr && 4 * most >= bytes.size) return best;  // noise has no frames, or few
+  if (best != nullptr && 4 * most >= bytes.size) return best;  // noise has few or no frames
   return "a wrong line rate (4800, 9600, 38400 and 115200 Bd are usual), or a protocol that is not known";
 }
 

@@ -74,7 +74,7 @@ std::optional<LadybugStampedFrame> LadybugCamera::next(TimeNs timeout) {
   return stamped;
 }
 
-/// Counts what is missing. Returns false for a frame that came before.
+/// Counts missing frames. Returns false for a repeated frame.
 bool LadybugCamera::countFrame(const LadybugFrame& frame) {
   int bad = 0;
   for (std::size_t camera = 0; camera + 1 < kLadybugCameras; ++camera)

@@ -11,22 +11,22 @@
 
 namespace segway_drivers {
 
-/// Lets a simulated camera expose frames as fast as odometry takes them, so that a slow machine leaves none out.
-/// Odometry answers a frame with its stamp. It does not answer those of a session that it has not begun yet; after
-/// kPatience the next one is exposed all the same. Times are arguments; no clock is read. Thread-safe.
+/// Paces a simulated camera by odometry, so that a slow machine drops no frames. Odometry answers a frame with its
+/// stamp. Frames of a session that odometry has not started are not answered; after kPatience the next frame is
+/// exposed without an answer. Times are arguments; no clock is read. Thread-safe.
 class FramePacer {
  public:
   static constexpr std::size_t kAhead = 10;           ///< frames that may be unanswered
   static constexpr TimeNs kPatience = 2'000'000'000;  ///< ns since the newest frame
 
-  /// A frame with this stamp was published at `now`. Stamps increase.
+  /// Reports a frame with this stamp, published at `now`. Stamps increase.
   void sent(TimeNs stamp, TimeNs now);
-  /// Odometry has taken the frame with this stamp, and so all before it.
+  /// Reports that odometry has processed all frames up to this stamp.
   void answered(TimeNs stamp);
   /// Returns whether the next frame may be exposed at `now`.
   bool isFree(TimeNs now) const;
-  /// Returns a reader whose frames wait until they may be exposed, and while `is_absent` returns true; no longer once
-  /// `stop` is set. Both must outlive it, as this object.
+  /// Returns a reader whose frames wait until they may be exposed and while `is_absent` returns true, unless `stop` is
+  /// set. `stop` and this object must outlive it.
   FrameReader pace(FrameReader read, std::function<bool()> is_absent, const std::atomic<bool>& stop) const;
 
  private:

@@ -6,8 +6,8 @@
 
 namespace segway_drivers {
 
-/// Returns the options of a simulated camera with these parameters of its nodelet. Its session begins with those of
-/// the other devices of the launch. Throws UserError if they cannot agree on the begin.
+/// Returns the options of a simulated camera for these parameters of its nodelet. Its session starts with those of the
+/// other devices of the launch. Throws UserError if they cannot agree on the start.
 SimCameraOptions simulatedCameraOptions(const NodeletParameters& parameters, SimCameraOptions::Model model);
 
 }  // namespace segway_drivers

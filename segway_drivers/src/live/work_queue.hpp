@@ -9,22 +9,22 @@
 
 namespace segway_drivers {
 
-/// Work of one thread, handed over by another that must never wait: beyond the capacity new work is dropped and
-/// counted. Thread-safe.
+/// Queue of work from a thread that must never wait to another: beyond the capacity new work is dropped and counted.
+/// Thread-safe.
 class WorkQueue {
  public:
   using Work = std::function<void()>;
 
   void setCapacity(std::size_t capacity);
-  /// Returns at once. Returns false if the queue is full and the work was dropped.
+  /// Never blocks. Returns false if the queue is full and the work was dropped.
   bool push(Work work);
-  /// Does the work until stop(), then what is left of it. Blocks.
+  /// Does the work until stop(), then the remaining work. Blocks.
   void run();
   void stop();
   std::int64_t dropped() const;
 
  private:
-  mutable std::mutex mutex_;  // guards what follows
+  mutable std::mutex mutex_;  // guards the following members
   std::condition_variable wake_;
   std::deque<Work> waiting_;
   std::size_t capacity_ = 1000;

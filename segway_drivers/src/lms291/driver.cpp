@@ -90,7 +90,7 @@ void LmsDriver::tick(TimeNs now) {
   if (phase_ == Phase::Stream) watch(now);
 }
 
-/// A request without answer: the next rate, or all from the beginning, and now and then the port anew.
+/// Handles a request without answer: tries the next rate, or restarts, and occasionally reopens the port.
 void LmsDriver::fail() {
   countTimeout();
   if (phase_ == Phase::Find && rate_ + 1 < kLmsRates.size()) {
@@ -144,7 +144,7 @@ void LmsDriver::takeReply(ByteView payload) {
   } else if (code == 0x90) {
     report(true, "restarted: " + textOfReply(payload));
     enter(Phase::Find, now_);
-  } else if (code != 0xA0 || phase_ != Phase::Stream) {  // the answer to a soft restart is no surprise
+  } else if (code != 0xA0 || phase_ != Phase::Stream) {  // the answer to a soft restart is expected
     countUnexpected();
   }
 }
@@ -200,7 +200,7 @@ void LmsDriver::takeConfiguration(ByteView payload) {
   report(true, "measuring mode " + std::to_string(configuration_[5]) + ", unit " + std::to_string(configuration_[6]) +
                    " cannot be decoded: set lms291.configure, or the mode to 0...6 or 15");
   request_.stop();
-  enter(Phase::Settle, now_);  // asks again: the user may have changed it
+  enter(Phase::Settle, now_);  // requested again, since the user may have changed it
 }
 
 void LmsDriver::takeRewritten(ByteView payload) {

@@ -11,7 +11,7 @@ constexpr std::size_t kLmsCodeCount = 10;
 
 bool isOpenAir(unsigned code) { return code == 1 || code == 6 || code == 9; }
 
-/// Ranges of `count` words. A word within 9 of 2^bits is a code.
+/// Decodes the ranges of `count` words. A word within 9 of 2^bits is a code.
 void decodeLmsRanges(const std::uint8_t* words, std::size_t count, int bits, double unit, LmsScan& scan) {
   const unsigned limit = 1U << bits;
   scan.ranges.reserve(count);

@@ -9,7 +9,7 @@ namespace segway_drivers {
 
 namespace {
 
-/// The mirror is no crystal: its period is free within 0.5 %, and within 0.05 % at first.
+/// The mirror is not crystal-controlled: its period may vary within 0.5 %, initially within 0.05 %.
 ClockOptions lmsClockOptions() {
   ClockOptions options;
   options.period = kLmsPeriod;

@@ -8,18 +8,19 @@ namespace {
 constexpr std::uint8_t kLmsStx = 0x02, kLmsDeviceAddress = 0x80;
 constexpr std::size_t kLmsHeader = 4, kLmsOverhead = 6;
 
-/// Whether a scan of ranges alone (B0h) can have this length: with none, one or both of the index bytes.
+/// Returns whether a scan with only ranges (B0h) can have this length: with none, one or both of the index bytes.
 bool isLmsRangeLength(std::size_t length, std::size_t ranges) {
   return length >= 4 + 2 * ranges && length <= 6 + 2 * ranges;
 }
 
-/// Whether a scan with reflectivities (C4h) can have this length: one to `ranges` of them, and one or two index bytes.
+/// Returns whether a scan with reflectivities (C4h) can have this length: one to `ranges` of them, and one or two index
+/// bytes.
 bool isLmsReflectivityLength(std::size_t length, std::size_t ranges) {
   const std::size_t fixed = 3 + 2 * ranges + 6;
   return length >= fixed + 3 && length <= fixed + ranges + 3;
 }
 
-/// Payload lengths by command byte. `payload` holds what has arrived, at least the command.
+/// Checks the payload length by command byte. `payload`: bytes that have arrived, at least the command.
 bool isLmsLength(ByteView payload, std::size_t length) {
   const std::size_t ranges = payload.size >= 3 ? littleWord(payload.data + 1) & 0x3FFU : 0;
   switch (payload[0]) {

@@ -12,7 +12,7 @@ constexpr double kAbsurdFactor = 10.0;
 
 TimeNs nanoseconds(double seconds) { return static_cast<TimeNs>(std::llround(1e9 * seconds)); }
 
-/// Approaches `wish`: at once towards zero, by at most `step` away from it. A reversal passes zero.
+/// Approaches `wish`: immediately towards zero, by at most `step` away from it. A reversal passes through zero.
 double approach(double command, double wish, double step) {
   if (command * wish < 0.0) command = 0.0;
   if (std::abs(wish) <= std::abs(command)) return wish;

@@ -9,7 +9,7 @@ namespace segway_drivers {
 namespace {
 
 constexpr double kRmpFullTurn = 6.283185307179586;
-constexpr double kRmpLeastStep = 0.02;  // s, below which late messages would look like jumps
+constexpr double kRmpLeastStep = 0.02;  // s, so that late messages do not appear as jumps
 
 }  // namespace
 
@@ -17,7 +17,7 @@ bool RmpOdometry::add(const CanFrame& travel, TimeNs time) {
   const std::uint32_t forward = travel.pair(0), yaw = travel.pair(2);
   bool good = true;
   if (last_forward_) {
-    // Counters wrap: subtracted as unsigned, read as signed.
+    // Counters wrap: unsigned subtraction, signed result.
     const double step = static_cast<std::int32_t>(forward - *last_forward_) / units_.per_metre;
     const double turn = kRmpFullTurn * static_cast<std::int32_t>(yaw - last_yaw_) / units_.per_revolution;
     const double elapsed = std::max(1e-9 * static_cast<double>(time - last_time_), kRmpLeastStep);

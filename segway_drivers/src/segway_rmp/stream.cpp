@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRmpPeriod = 0.01;  // s
 constexpr double kRmpUsbBaud = 460800.0;
-constexpr TimeNs kRmpSilence = 50'000'000;  // ns, between messages of adjacent cycles at most
+constexpr TimeNs kRmpSilence = 50'000'000;  // ns, largest gap between messages of adjacent cycles
 
 ClockOptions rmpClockOptions() {
   ClockOptions options;
@@ -48,8 +48,7 @@ void RmpStream::add(const CanFrame& frame, std::uint64_t offset, TimeNs arrival)
 void RmpStream::placeCycle(const CanFrame& frame, TimeNs arrival) {
   if (arrival == 0) return;
   const auto latency = static_cast<TimeNs>(std::llround(1e9 * latency_));
-  if (last_arrival_ &&
-      arrival - *last_arrival_ > kRmpSilence) {  // the time of this cycle is not known before its count
+  if (last_arrival_ && arrival - *last_arrival_ > kRmpSilence) {  // the time of this cycle is unknown before its count
     cycle_arrival_.reset();
     cycle_stamp_.reset();
     is_resumed_ = true;

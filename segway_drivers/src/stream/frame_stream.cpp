@@ -10,7 +10,7 @@ namespace segway_drivers {
 
 namespace {
 
-constexpr TimeNs kExpirySlack = 50'000'000;  // ns: scheduling of a busy host
+constexpr TimeNs kExpirySlack = 50'000'000;  // ns: scheduling delay of a busy host
 
 }  // namespace
 
@@ -43,7 +43,7 @@ void FrameStream::append(ByteView chunk) {
   counters_.bytes += static_cast<std::int64_t>(chunk.size);
 }
 
-/// Remembers when the bytes came. Where the record is full every other entry is dropped: what remains still bounds the
+/// Records the arrival of bytes. If the record is full every other entry is dropped; the remaining ones still bound the
 /// arrival from above.
 void FrameStream::note(const Read& read) {
   if (read_count_ > 0) {

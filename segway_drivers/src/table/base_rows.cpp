@@ -25,7 +25,7 @@ class RmpRows : public RowDecoder {
   Sink sink_;
 };
 
-/// Lines of `candump -l`; their times are the arrivals.
+/// Decodes lines of `candump -l`, whose times are the arrivals.
 class CandumpRows : public RowDecoder {
  public:
   CandumpRows(double latency, Sink sink) : stream_(latency), sink_(std::move(sink)) {

@@ -15,12 +15,12 @@ namespace segway_drivers {
 
 namespace {
 
-/// Writes numbered images beside the table.
+/// Writes numbered images to the folder of the table.
 class RowImages {
  public:
   explicit RowImages(ImageFolder folder) : folder_(std::move(folder)) {}
 
-  /// Name of the file.
+  /// Returns the name of the file.
   std::string write(std::int64_t frame, const std::string& name, const cv::Mat& image) const {
     const std::string file = folder_.stem + "_" + std::to_string(frame) + "_" + name + ".png";
     std::vector<std::uint8_t> png;
@@ -75,7 +75,7 @@ class Bb2Rows : public RowDecoder {
   }
   void take(const StreamFrame& raw) {
     const Bb2Frame frame = splitBb2Frame(raw.bytes, swap_, Bb2Embedding::Raw);
-    // Counts of gain and shutter mean nothing without the camera's absolute registers.
+    // Counts of gain and shutter have no unit without the absolute registers of the camera.
     std::string cells = busTimeCell(frame.bus_time) + "," + std::to_string(frame.sequence) + ",,";
     cells += "," + images_.write(number_, "left", process(frame.left, left_));
     cells += "," + images_.write(number_, "right", process(frame.right, right_));

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kLongestRandomChunk = 2000;
 
-/// One read of the recorded transport: its bytes end where the next one begins.
+/// One read of the recorded transport; its bytes end at the start of the next one.
 struct RecordedRead {
   std::size_t begin = 0;
   TimeNs time = 0;
@@ -39,7 +39,7 @@ std::vector<RecordedRead> readArrivals(const std::string& path) {
   return reads;
 }
 
-/// Hands the bytes of one read to the decoder in chunks.
+/// Passes the bytes of one read to the decoder in chunks.
 void feedRead(RowDecoder& decoder, ByteView bytes, TimeNs time, int chunk, std::mt19937_64& random) {
   std::size_t at = 0;
   while (at < bytes.size) {
@@ -53,7 +53,7 @@ void feedRead(RowDecoder& decoder, ByteView bytes, TimeNs time, int chunk, std::
 }  // namespace
 
 DeviceCounters decodeFile(const DecodeJob& job, const Parameters& parameters) {
-  rowColumns(job.kind);  // refuses an unknown kind before any file is read
+  rowColumns(job.kind);  // rejects an unknown kind before any file is read
   const std::string text = urban_nav_core::readBytes(job.input);
   const ByteView bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   std::vector<RecordedRead> reads;

@@ -19,7 +19,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// A command of a kind: its name, its arguments as the help names them, and its encoder.
+/// A command of a kind: name, arguments as in the help text, and encoder.
 struct CommandEncoder {
   std::string kind, name, arguments;
   std::size_t count;  // of arguments
@@ -99,7 +99,7 @@ Bytes encodeRmpMode(const Words& words) {
   return makeRmpPacket(makeRmpConfiguration(makeRmpVelocity(0, 0), RmpConfiguration::OperatingMode, mode));
 }
 
-/// One packet for each integrator: together they are not accepted.
+/// Encodes one packet per integrator, since the base does not accept a combined one.
 Bytes encodeRmpReset(const Words&) {
   Bytes all;
   for (const std::uint16_t integrator : std::array<std::uint16_t, 4>{1, 2, 4, 8}) {

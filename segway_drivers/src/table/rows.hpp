@@ -11,18 +11,18 @@
 
 namespace segway_drivers {
 
-/// Appends a cell and a comma in front of all but the first. Values that are not finite are absent.
+/// Appends a cell, preceded by a comma except for the first. Non-finite values give empty cells.
 void appendCell(std::string& cells, const std::string& text);
 void appendCell(std::string& cells, double value);
 void appendCell(std::string& cells, float value);
 
-/// Cells of one message, in the order of rowColumns().
+/// Returns the cells of one message in the order of rowColumns().
 std::string lmsCells(const LmsScan& scan);
 std::string mtiCells(const MtiSample& sample);
 std::string rmpCells(const CanFrame& frame);
 std::string gpsCells(const GpsFix& fix);
 
-/// Decoders of rowColumns()' kinds.
+/// Make the decoders of the kinds of rowColumns().
 std::unique_ptr<RowDecoder> makeLmsRows(const Parameters& parameters, RowDecoder::Sink sink);
 std::unique_ptr<RowDecoder> makeMtiRows(const Parameters& parameters, RowDecoder::Sink sink);
 std::unique_ptr<RowDecoder> makeRmpRows(const Parameters& parameters, RowDecoder::Sink sink);

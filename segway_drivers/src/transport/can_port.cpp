@@ -22,7 +22,7 @@ namespace segway_drivers {
 
 namespace {
 
-/// SocketCAN as if it were the USB connection: each frame is one packet, so that the same driver serves both.
+/// SocketCAN with the format of the USB connection: each frame is one packet, so that one driver serves both.
 class CanPort : public DescriptorPort {
  public:
   explicit CanPort(int descriptor) : DescriptorPort(descriptor) {}

@@ -26,7 +26,7 @@ TimeNs readClock(clockid_t clock) {
 TimeNs steadyTime() { return readClock(CLOCK_MONOTONIC); }
 
 TimeNs realTimeOffset() {
-  // The pair of readings with the shortest time between them.
+  // Uses the pair of readings with the shortest interval.
   TimeNs best = 0, shortest = std::numeric_limits<TimeNs>::max();
   for (int i = 0; i < 3; ++i) {
     const TimeNs before = steadyTime(), real = readClock(CLOCK_REALTIME), after = steadyTime();
@@ -57,7 +57,7 @@ Port::ReadResult DescriptorPort::read(std::uint8_t* buffer, std::size_t size, Ti
 }
 
 bool DescriptorPort::write(ByteView bytes) {
-  // A socket without reader must not end the process; other descriptors refuse send().
+  // A socket without reader must not end the process; other descriptors do not support send().
   ssize_t count = ::send(descriptor_, bytes.data, bytes.size, MSG_NOSIGNAL);
   if (count < 0 && errno == ENOTSOCK) count = ::write(descriptor_, bytes.data, bytes.size);
   return count == static_cast<ssize_t>(bytes.size);

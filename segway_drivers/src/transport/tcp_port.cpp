@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kConnectTimeout = 1000;  // ms
 
-/// Descriptor of a connection to the first address that answers; -1 and `error` otherwise.
+/// Returns the descriptor of a connection to the first address that answers; otherwise -1, and sets `error`.
 int connectTcp(const addrinfo* addresses, std::string& error) {
   for (const addrinfo* each = addresses; each != nullptr; each = each->ai_next) {
     const int descriptor =

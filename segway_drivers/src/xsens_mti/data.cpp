@@ -9,7 +9,7 @@ namespace segway_drivers {
 
 namespace {
 
-/// Reads numbers in turn. Runs over the end are remembered, and so are numbers that are not finite.
+/// Reads numbers in order. Records reads beyond the end and non-finite numbers.
 class MtiDataReader {
  public:
   MtiDataReader(ByteView data, unsigned format) : data_(data), format_(format) {}
@@ -61,7 +61,7 @@ std::array<double, 4> readMtiDataOrientation(MtiDataReader& reader, unsigned kin
 
 std::optional<std::size_t> mtiDataLength(unsigned mode, unsigned settings) {
   const std::size_t tail = (settings & 3U) == 1 ? 2 : 0;
-  if (hasBit(mode, 14)) return 20 + tail;  // raw values, alone
+  if (hasBit(mode, 14)) return 20 + tail;  // raw values only
   if ((settings & 3U) > 1 || (settings >> 2 & 3U) == 3 || (mode & 0x0030U) != 0) return std::nullopt;
   std::size_t numbers = hasBit(mode, 0) ? 1 : 0, bytes = 0;
   if (hasBit(mode, 1))

@@ -9,7 +9,7 @@ namespace segway_drivers {
 
 namespace {
 
-/// `count` numbers of an item. Returns false if its size is another, or a number is not finite.
+/// Reads `count` numbers of an item. Returns false for another size or non-finite numbers.
 template <std::size_t count>
 bool readMtiItem(ByteView data, unsigned format, std::array<double, count>& numbers) {
   const std::size_t size = mtiNumberSize(format);

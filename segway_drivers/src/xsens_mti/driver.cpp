@@ -13,7 +13,7 @@ constexpr int kMtiFindTries = 20, kMtiOtherTries = 4, kMtiSoftRestarts = 3, kMti
 constexpr std::uint8_t kMtiAnswerTo = 1;  // added to the identifier of a request
 constexpr std::uint8_t kMtiNotImplemented = 0x04;
 
-/// Counter, fine time, quaternion, acceleration, rate and field at the wished rate, Hz.
+/// Requests counter, fine time, quaternion, acceleration, rate and field at `rate`, Hz.
 Bytes mtiOutputConfiguration(int rate) {
   Bytes data;
   for (const std::uint16_t item : std::array<std::uint16_t, 2>{0x1020, 0x1060}) {
@@ -42,8 +42,8 @@ void MtiDriver::begin(TimeNs now) {
   find(known_rate_.value_or(0));
 }
 
-/// The rate at which the device has answered before is tried for 2 s, since it may be booting; others then more
-/// briefly.
+/// Tries the last rate at which the device answered for 2 s, since it may be booting, then the others for a shorter
+/// time.
 void MtiDriver::find(std::size_t rate) {
   rate_ = rate;
   ignored_ = 0;
@@ -101,7 +101,7 @@ void MtiDriver::tick(TimeNs now) {
 
 void MtiDriver::fail() {
   countTimeout();
-  if (phase_ == Phase::Product || phase_ == Phase::Firmware) {  // not every unit knows them
+  if (phase_ == Phase::Product || phase_ == Phase::Firmware) {  // not supported by every unit
     enter(phase_ == Phase::Product ? Phase::Firmware : Phase::Kind);
   } else if (phase_ == Phase::Find && ignored_ >= kMtiSamplesAsItIs) {
     report(true, "streams and ignores requests: used as it is; switch it off and on to configure it");
@@ -145,7 +145,7 @@ void MtiDriver::takeReply(const MtiMessage& message) {
     takeError(message);
   } else if (request_.isActive() && message.mid == request_.bytes()[2] + kMtiAnswerTo) {
     takeAnswer(message);
-  } else if (message.mid != 0x11 && message.mid != 0x0D) {  // answers to a soft restart; sent unasked after one
+  } else if (message.mid != 0x11 && message.mid != 0x0D) {  // answers to a soft restart; sent unrequested after one
     countUnexpected();
   }
 }

@@ -8,7 +8,7 @@ namespace {
 constexpr std::uint8_t kMtiPreamble = 0xFA, kMtiBus = 0xFF, kMtiExtended = 0xFF;
 constexpr std::size_t kMtiMaxData = 2048;
 
-/// Whether the message can have so many bytes of data; identifiers that are not listed can have any.
+/// Returns whether the message can have this number of data bytes; any for unlisted identifiers.
 bool isMtiLength(std::uint8_t mid, std::size_t length) {
   switch (mid) {
     case 0x11:

@@ -21,7 +21,7 @@ MtiQuaternion multiplyMti(const MtiQuaternion& a, const MtiQuaternion& b) {
 
 MtiQuaternion mtiQuaternionFromMatrix(const std::array<double, 9>& m) {
   const double trace = m[0] + m[4] + m[8];
-  // The largest of the four components is computed by its root, the others by division.
+  // The largest of the four components is computed by a square root, the others by division.
   const std::array<double, 4> squares = {1 + trace, 1 + m[0] - m[4] - m[8], 1 - m[0] + m[4] - m[8],
                                          1 - m[0] - m[4] + m[8]};
   const auto largest = std::max_element(squares.begin(), squares.end()) - squares.begin();

@@ -8,7 +8,7 @@ namespace segway_drivers {
 namespace {
 
 constexpr double kMtiFineUnit = 1e-4;         // s
-constexpr std::int32_t kMtiDisorder = 10000;  // units by which slow outputs may lie before the message ahead of them
+constexpr std::int32_t kMtiDisorder = 10000;  // units by which slow outputs may precede the previous message
 
 ClockOptions mtiClockOptions(double period) {
   ClockOptions options;
@@ -66,7 +66,7 @@ void MtiStream::place(MtiStampedSample& sample) {
   if (sample.sample.sample_time_fine) placeBySampleTime(sample);
 }
 
-/// Counts gaps, and is the device time where there is no sample time.
+/// Counts gaps, and gives the device time if there is no sample time.
 void MtiStream::placeByCounter(MtiStampedSample& sample) {
   const bool is_clock = !sample.sample.sample_time_fine;
   const UnwrappedCount position = counter_.add(*sample.sample.counter, is_clock ? sample.arrival : 0);

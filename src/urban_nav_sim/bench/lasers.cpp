@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The simulated LMS291 beside the truth that it saw, beside its data sheet, and beside the real ones of the New College
-// log.
+// Compares the simulated LMS291 with the truth, with its data sheet, and with the real ones of the New College log.
 //   lasers [--world NAME] [--duration S] [--places N] [--seed N] [-o FILE.json]
 #include <algorithm>
 #include <array>
@@ -25,11 +24,11 @@ using namespace urban_nav_sim::bench;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 
-constexpr int kTogether = 9;        // turns at a place, one after another
-constexpr double kMixed = 0.1;      // m off the surface: no noise does that
-constexpr double kSameThing = 0.2;  // m: a beam that jumps by more has met another thing
+constexpr int kTogether = 9;        // consecutive turns at a place
+constexpr double kMixed = 0.1;      // m off the surface, beyond noise
+constexpr double kSameThing = 0.2;  // m: larger jumps of a beam mean another object
 
-/// What can be said of turns without knowing what they saw.
+/// Statistics of turns without ground truth.
 struct Turning {
   Values ranges, intensities, jitter;  // m, 0 ... 255, mm
   double beams = 0.0, silent = 0.0, alone = 0.0;
@@ -52,22 +51,21 @@ struct Turning {
   }
 
  private:
-  /// Second differences: even motion does not show. Scaled to the noise of one range.
+  /// Adds second differences, which cancel uniform motion, scaled to the noise of one range.
   void addJitter(double a, double b, double c) {
     if (!(a > 0.0 && b > 0.0 && c > 0.0) || std::abs(b - a) > kSameThing || std::abs(c - b) > kSameThing) return;
     jitter.push_back(1000.0 * std::abs(a - 2.0 * b + c) / std::sqrt(6.0));
   }
 };
 
-/// Beside what the middle of each beam met.
+/// Errors relative to the truth at the centre of each beam.
 struct Errors {
   Values near, far;   // mm, of ranges to 20 m and beyond, without mixed ones and the device's bias
   Values path, wall;  // reflectance of the ground 1 to 1.5 m away, of walls 3.5 to 5.5 m away
   Values far_plane;   // mm, of those beyond 20 m that lie on a plane
   double returns = 0.0, mixed = 0.0, reachable = 0.0, lost = 0.0, sky_returns = 0.0;
 
-  /// `plane`: its neighbours meet the same plane. Where they do not, what the middle meets is not what its whole
-  /// width does.
+  /// `plane`: its neighbours hit the same plane; otherwise the centre of the beam is not representative of its width.
   void add(double range, double intensity, const BeamTruth& truth, double bias, double range_max, bool plane) {
     const bool returned = std::isfinite(range), reachable_now = truth.range < range_max;
     if (reachable_now) reachable += 1.0;
@@ -87,7 +85,7 @@ struct Errors {
   }
 };
 
-/// Do this beam and its neighbours meet one plane? The reciprocal of range is then a sum of a sine and a cosine.
+/// Returns whether this beam and its neighbours hit one plane: the inverse range is then a sum of a sine and a cosine.
 bool isOnPlane(const std::vector<BeamTruth>& truth, std::size_t i) {
   constexpr double kStep = 0.5 * M_PI / 180.0, kOff = 0.02;  // m
   if (i == 0 || i + 1 >= truth.size()) return false;
@@ -96,7 +94,7 @@ bool isOnPlane(const std::vector<BeamTruth>& truth, std::size_t i) {
   return std::abs(2.0 * std::cos(kStep) / (1.0 / a + 1.0 / c) - b) < kOff;
 }
 
-/// Half the width of the middle 68 %: what a standard deviation would be without tails.
+/// Returns half the width of the central 68 %: a robust standard deviation.
 double coreSpread(const Values& values) { return 0.5 * (quantile(values, 0.8413) - quantile(values, 0.1587)); }
 
 struct Simulated {
@@ -149,7 +147,7 @@ Turning realTurns() {
   return look;
 }
 
-/// "fifth ... ninety-fifth percentile", as they are stated of the New College data set (Smith et al. 2009).
+/// Returns "5th ... 95th percentile", as stated for the New College data set (Smith et al. 2009).
 std::string band(const Values& values) {
   return cell(quantile(values, 0.05), 0) + " ... " + cell(quantile(values, 0.95), 0);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What two lasers saw around places along a motion, for src/urban_nav_registration/bench/clouds.cpp: a PLY for each
-// place, as from a recording whose odometry drifts, and places.csv with the day, the way driven (m) and the true pose
-// of each. The same route on two days.
+// Writes clouds of two lasers around places along a motion, for src/urban_nav_registration/bench/clouds.cpp: a PLY per
+// place, as from a recording with drifting odometry, and places.csv with the day, the distance driven (m) and the true
+// pose of each. The same route on two days.
 //   local_clouds [--world W] [--seed N] [--route loops] [--duration 300] [--step 4] [--folder DIR]
 #include <cmath>
 #include <filesystem>
@@ -27,22 +27,22 @@ using urban_nav_core::StampNs;
 using urban_nav_core::Trajectory;
 
 constexpr double kBeside = 10.0;            // m before and after a place: loop_metric.cloud_half_length
-constexpr double kStart = 6.0;              // s: the robot has begun to move
+constexpr double kStart = 6.0;              // s: the robot is moving
 constexpr double kFrame = 0.05;             // s from pose to pose of odometry
-constexpr std::uint64_t kTurns = 10000000;  // of a day, so that no two share their noise
+constexpr std::uint64_t kTurns = 10000000;  // per day, so that the noise differs
 constexpr StampNs kLongestGap = 500000000;
 
-// What swf_vo drifts per root of a metre in `quad` (two days of 300 m, ways of 10 m): m, rad.
+// Drift of swf_vo per root of a metre in `quad` (two days of 300 m, segments of 10 m): m, rad.
 const Eigen::Vector3d kDriftAlong(2.2e-3, 2.0e-3, 1.0e-3), kDriftTurned(0.16e-3, 0.16e-3, 0.22e-3);
 
-// By how much that bends a cloud, m: the mean variance along the way of a random walk whose mean is taken out, with
-// turns at 10 m.
+// Resulting deformation of a cloud, m: mean variance along the path of a random walk minus its mean, with rotations at
+// 10 m.
 const double kBend =
     std::sqrt(2.0 * kBeside / 6.0 * (kDriftAlong.squaredNorm() + 100.0 * kDriftTurned.squaredNorm()) / 3.0);
 
 StampNs toStamp(double t) { return static_cast<StampNs>(std::llround(1e9 * t)); }
 
-/// The true way and what odometry makes of it, frame by frame.
+/// The true path and its odometry, frame by frame.
 struct Driven {
   std::vector<double> t, way;  // s, m
   std::vector<Pose> T_world_base;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the simulated Segway moves on each world beside the real one: Tables 2 and 3 of the paper, and the odometry of
-// the New College log (3.5 s at 27.8 Hz).
+// Compares the motion of the simulated Segway on each world with the real one: Tables 2 and 3 of the paper, and the
+// odometry of the New College log (3.5 s at 27.8 Hz).
 //   motion [--route NAME] [--duration S] [--seed N] [-o FILE.json]
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 using Series = std::vector<double>;
 
-constexpr double kPeriod = 0.036;    // s, of the wheels' odometry
+constexpr double kPeriod = 0.036;    // s, of wheel odometry
 constexpr std::size_t kWindow = 97;  // 3.5 s, as long as the log
 constexpr double kDegree = M_PI / 180.0;
 
@@ -60,7 +60,7 @@ double swayIn(const double* values) {
   return std::sqrt((window - powers * fit).squaredNorm() / static_cast<double>(kWindow));
 }
 
-// The median over windows as long as the log in which the robot drives, as it does there.
+// The median over windows of the length of the log in which the robot drives.
 double sway(const Series& values, const Series& speed) {
   Series all;
   for (std::size_t i = 0; i + kWindow <= values.size(); i += kWindow) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stereo pairs of things that stand in the way, for dense_stereo/bench/ground.cpp: a folder in KITTI's layout, and in
-// FOLDER/truth the depth and class of each pixel. At places along a route the robot looks up to 60 deg aside, at walls,
-// plants, vehicles and furniture; a box of 12 to 60 cm stands before it at each place.
+// Writes stereo pairs of obstacles, for dense_stereo/bench/ground.cpp: a folder in the layout of KITTI, and in
+// FOLDER/truth the depth and class of each pixel. At places along a route the robot is rotated by up to 60 deg, towards
+// walls, plants, vehicles and furniture; a box of 12 to 60 cm is in front of it at each place.
 //   obstacles [--world W] [--seed N] [--places 100] [--folder DIR]
 #include <cmath>
 #include <memory>
@@ -30,7 +30,7 @@ constexpr double kNearest = 1.3, kFarthest = 4.3, kSideways = 0.35;             
 constexpr double kThinnest = 0.1, kWidest = 0.5, kLowest = 0.12, kHighest = 0.6;  // m
 constexpr double kSpeed = 0.7;                                                    // m/s, for the motion blur
 
-/// The drive at one time, turned aside.
+/// The motion at one time, with a rotated heading.
 struct Look : Motion {
   MotionState state;
   double duration() const override { return 1.0; }
@@ -82,7 +82,7 @@ int main(int argc, char** argv) try {
   const Pose T_base_left = sensorPose(urban_nav_core::frames::kStereoLeft);
   StereoFolder folder(path);
   for (const Look& look : looks) {
-    // A head for each place: its first exposure fits.
+    // One head per place, so that its initial exposure is correct.
     StereoHead head(tracer, sky, StereoImages::Rectified, T_base_left, draw.bits());
     folder.add(head.take(look, 0.0), look.state.T_world_base * T_base_left);
     folder.addTruth(head.pictures(), path + "/truth");

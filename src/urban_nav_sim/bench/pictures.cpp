@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pictures of the READMEs: simulated_above.jpg, simulated_cloud.jpg, and simulated.jpg with what the robot sees.
+// Renders the pictures of the READMEs: simulated_above.jpg, simulated_cloud.jpg, and simulated.jpg with the views of
+// the robot.
 //   pictures [--folder DIR] [--seen S] [--again S]
 #include <array>
 #include <cmath>
@@ -48,7 +49,7 @@ struct Scene {
   }
 };
 
-/// Pictures of one height side by side, together as wide as a page.
+/// Returns pictures of one height side by side, scaled to the width of a page.
 cv::Mat beside(const std::vector<cv::Mat>& images) {
   const int width = (kWidth - kGap * (static_cast<int>(images.size()) - 1)) / static_cast<int>(images.size());
   std::vector<cv::Mat> row;
@@ -75,7 +76,7 @@ cv::Mat above(const std::vector<cv::Mat>& rows) {
   return result;
 }
 
-/// What both lasers measured, each beam at its own time on the true way.
+/// Returns the points of both lasers, each beam at its time on the true path.
 std::vector<Return> scanCloud(const Scene& scene) {
   std::vector<Return> cloud;
   const Lms291::Settings settings;
@@ -102,7 +103,7 @@ std::array<cv::Mat, 2> renderStereo(const Scene& scene, double t) {
       .take(*scene.motion, t);
 }
 
-/// From where the robot's head is, a wider look.
+/// Returns a wide-angle view from the head of the robot.
 cv::Mat ahead(const Scene& scene, double t) {
   const urban_nav_core::Pose T_world_base = scene.motion->at(t).T_world_base;
   FreeCamera camera;

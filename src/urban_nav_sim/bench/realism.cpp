@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the pictures of each world are made of beside real streets: texture, corners, noise, gradients.
+// Compares images of each world with real streets: texture, corners, noise, gradients.
 //   realism [--route NAME] [--duration S] [--frames N] [--seed N] [--day N] [--write FOLDER] [-o FILE.json]
 #include <algorithm>
 #include <cmath>
@@ -28,12 +28,11 @@ using namespace urban_nav_sim::bench;
 using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 
-constexpr double kFewerPixels = 0.54;  // the stereo camera's pixels a radian over those of the real sequences
-constexpr double kUpright =
-    14.6;  // deg above and below the horizon that the real cameras see; the stereo camera sees 26
-constexpr std::size_t kEvery = 8;  // of the real frames, which are much alike
+constexpr double kFewerPixels = 0.54;  // pixels per radian of the stereo camera relative to the real sequences
+constexpr double kUpright = 14.6;      // deg above and below the horizon of the real cameras; 26 for the stereo camera
+constexpr std::size_t kEvery = 8;      // of the real frames, which are similar
 
-/// Of many pictures, a value each; of gradients, one for each pixel that was taken.
+/// One value per picture; of gradients one per sampled pixel.
 struct Textures {
   Values textured_blocks, corners, two_octaves_up, above, below, white, noise, gradients;
 
@@ -49,8 +48,8 @@ struct Textures {
   }
 };
 
-/// As the camera gave them, and at the simulated camera's number of pixels a radian: a simulated frame may be like
-/// either.
+/// Returns textures at the resolution of the real camera, and at the pixels per radian of the simulated one, either of
+/// which a simulated frame may match.
 Textures realTextures() {
   Textures textures;
   for (const char* name : {"stereo/kitti06_000_050/image_0", "stereo/kitti_raw_0926_0005/image_0"}) {
@@ -70,7 +69,7 @@ Textures realTextures() {
   return textures;
 }
 
-/// The rows that the real cameras would have: with more sky and more ground, other pictures were compared.
+/// Crops an image to the vertical field of view of the real cameras, for equal shares of sky and ground.
 cv::Mat asTheRealOnes(const cv::Mat& image, const Lens& lens) {
   const int middle = cvRound(lens.cy), half = cvRound(lens.fy * std::tan(kUpright * M_PI / 180.0));
   return image.rowRange(std::max(middle - half, 0), std::min(middle + half, image.rows));
@@ -89,7 +88,7 @@ Textures simulatedTextures(const std::string& name, const Options& options) {
   const std::string folder = options.text("--write", "");
   Textures textures;
   for (int i = 0; i < frames; ++i) {
-    // A head for each frame: its exposure has settled, as after many frames there.
+    // One head per frame, with settled exposure, as in a sequence.
     StereoHead head(tracer, sky, StereoImages::Rectified, sensorPose(urban_nav_core::frames::kStereoLeft),
                     seed + static_cast<std::uint64_t>(i));
     const cv::Mat image = head.take(*motion, (i + 0.5) * motion->duration() / frames)[0];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Views of places that are seen again, for src/urban_nav_registration/bench/pairs.cpp: a folder in KITTI's layout with
-// the true poses. Three times along one way: as it is; some metres before or after, up to 1.6 m and 20 deg aside; and
-// so once more on another day.
+// Writes views of revisited places, for src/urban_nav_registration/bench/pairs.cpp: a folder in the layout of KITTI
+// with the true poses. Three passes along one path: unchanged; shifted along it by some metres and by up to 1.6 m and
+// 20 deg sideways; and shifted again on another day.
 //   revisits [--world W] [--seed N] [--places 36] [--step 2] [--folder DIR]
 #include <array>
 #include <memory>
@@ -22,13 +22,13 @@ using namespace urban_nav_sim;
 using namespace urban_nav_sim::bench;
 using urban_nav_core::Pose;
 
-constexpr double kStart = 6.0;  // s: the robot has begun to move
+constexpr double kStart = 6.0;  // s: the robot is moving
 constexpr double kMostBefore = 2.5, kMostAside = 1.6, kMostTurned = 0.35, kMostTilted = 0.02,
                  kMostLifted = 0.02;        // s, m, rad, rad, m
 constexpr int kPictures = 10;               // until the exposure has settled
 constexpr double kBetweenPictures = 0.001;  // s
 
-/// Another motion, at another time and from aside.
+/// A motion shifted in time and sideways.
 struct Aside : Motion {
   explicit Aside(const Motion& motion) : way(motion) {}
   double duration() const override { return way.duration(); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a second of a session costs, by world, sensor and number of threads: time of the processor, time by the clock,
-// memory. Measurements alone; what a bag takes to write is not in it.
+// Measures the cost of a second of a session by world, sensor and number of threads: processor time, wall time, memory.
+// Only of measurements, without writing a bag.
 //   speed [--duration S] [--seed N] [--world NAME] [-o FILE.json]
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -28,7 +28,7 @@ using urban_nav_core::testing::cell;
 using urban_nav_core::testing::processMs;
 
 struct Cost {
-  double build = 0.0;                   // core-seconds until the first measurement can be asked for
+  double build = 0.0;                   // core-seconds until the first measurement is available
   double processor = 0.0, clock = 0.0;  // s, of the session
   double memory = 0.0;                  // MB at most
 };
@@ -50,7 +50,7 @@ Cost measureCost(const SessionOptions& options, int threads) {
   return cost;
 }
 
-/// In a process of its own: memory at most is that of a process, and never goes back.
+/// Measures in a separate process, since peak memory is per process.
 Cost measured(const SessionOptions& options, int threads) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");

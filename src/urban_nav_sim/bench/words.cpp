@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How places repeat: are some taken for others by their visual words, and how many of the words at a place are gone on
-// another day?
+// Measures perceptual aliasing: places confused by their visual words, and the share of the words of a place that is
+// missing on another day.
 //   words [--world NAME] [--places M] [--duration S] [--seed N] [-o FILE.json]
 #include <algorithm>
 #include <array>
@@ -29,19 +29,19 @@ using urban_nav_core::testing::BenchTable;
 using urban_nav_core::testing::cell;
 
 constexpr int kWords = 1000;
-constexpr double kApart = 25.0;  // m of driving between places of which one may be taken for the other
-constexpr double kStep = 0.5;    // m: a change of place that a day is compared with
-constexpr int kPlacesApart = 4;  // every so-manieth place is seen again
-constexpr std::array<int, 3> kOtherDays = {2, 3, 4};  // as they come; wet; in winter
+constexpr double kApart = 25.0;                       // m of driving between places that may be confused
+constexpr double kStep = 0.5;                         // m: displacement for comparison with the change of a day
+constexpr int kPlacesApart = 4;                       // every n-th place is revisited
+constexpr std::array<int, 3> kOtherDays = {2, 3, 4};  // dry; wet; in winter
 
-/// A place of the world on one day, seen from anywhere on a motion.
+/// The world on one day, rendered from poses of a motion.
 class Scene {
  public:
   Scene(const std::string& name, std::uint32_t seed, int day)
       : world_(buildWorld(name, seed, day)), tracer_(world_), sky_(world_.day, seed) {}
 
   const World& world() const { return world_; }
-  /// Descriptors of what the left camera sees. A head for each frame: its exposure has settled; `chance` is that of its
+  /// Returns the descriptors of the left camera. Uses one head per frame, with settled exposure; `chance`: seed of its
   /// noise.
   cv::Mat describe(const Motion& motion, double t, std::uint64_t chance) const {
     StereoHead head(tracer_, sky_, StereoImages::Rectified, sensorPose(urban_nav_core::frames::kStereoLeft), chance);
@@ -61,7 +61,7 @@ std::unique_ptr<Motion> rideThrough(const World& world, std::uint32_t seed, doub
   return simulateDrive(world, makeRoute(world.name, seed, "loops"), options);
 }
 
-/// When (s) the robot has driven 0, `every`, 2 `every`, ... m.
+/// Returns the times (s) at which the robot has driven 0, `every`, 2 `every`, ... m.
 std::vector<double> timesEvery(const Motion& motion, double every) {
   std::vector<double> times;
   Eigen::Vector3d last = motion.at(0.0).T_world_base.t();
@@ -88,7 +88,7 @@ Vocabulary trained(std::uint32_t seed) {
 std::string percent(double share) { return cell(100.0 * share, 0); }
 std::string percent(int part, int whole) { return whole > 0 ? percent(static_cast<double>(part) / whole) : "-"; }
 
-/// A motion on day 1, and what is left of it when places are seen again.
+/// A motion on day 1, and the recognition of its places when revisited.
 class Repetition {
  public:
   Repetition(const std::string& name, const Vocabulary& vocabulary, const Options& options)
@@ -105,7 +105,7 @@ class Repetition {
     worth_ = wordWeights(pictures_);
   }
 
-  /// A column of the table.
+  /// Returns a column of the table.
   std::vector<std::string> column() const {
     const Recognition found = recognise(places_, worth_, kApart);
     std::vector<std::string> cells = {std::to_string(places_.size()), std::to_string(found.revisits),
@@ -136,7 +136,7 @@ class Repetition {
             vocabulary_.countWords(scene.describe(*motion_, t, chance))};
   }
 
-  /// Of every so-manieth place: which share of its words is gone `further` m on, and how many are taken for elsewhere.
+  /// For every n-th place: returns the share of its words missing `further` m later, and the number of confusions.
   std::array<std::string, 2> seenAgain(const Scene& scene, double further) const {
     Values gone;
     int taken = 0;

@@ -29,8 +29,8 @@ constexpr double kSameTime = 1e-4;     // s
 
 enum class BagTopic { Required, Optional };
 
-/// Calls `take(message, time)` for each message of a topic; `time`: s since the bag begins, the same for all devices.
-/// Returns the begin, s.
+/// Calls `take(message, time)` for each message of a topic; `time`: s since the begin of the bag, common to all
+/// devices. Returns the begin, s.
 template <typename Message>
 double forEachOfTopic(const std::string& path, const std::string& topic, BagTopic kind,
                       const std::function<void(const Message& message, double time)>& take) {
@@ -48,7 +48,7 @@ double forEachOfTopic(const std::string& path, const std::string& topic, BagTopi
   return begin;
 }
 
-/// The reading of a time; null if there is none. `at` rises from call to call.
+/// Returns the reading at a time; null without one. `at` must ascend from call to call.
 template <typename Reading>
 Reading* findReading(std::vector<Reading>& readings, std::size_t& at, double time) {
   while (at < readings.size() && readings[at].time < time - kSameTime) ++at;

@@ -17,8 +17,8 @@
 
 namespace urban_nav_sim {
 
-/// One simulated device at its port, fed by a bag: the device runs in a thread of its own, on the steady clock. The bag
-/// is read before, in the manager's thread: rosbag loads plugins, which is not safe while the manager loads nodelets.
+/// A simulated device at its port, driven by a bag, in a separate thread on the steady clock. The bag is read before,
+/// in the thread of the manager, since rosbag loads plugins, which is not safe while the manager loads nodelets.
 class DeviceNodelet : public nodelet::Nodelet {
  public:
   ~DeviceNodelet() override {

@@ -11,24 +11,24 @@
 
 namespace urban_nav_sim {
 
-/// How the simulation goes.
+/// Progress of the simulation.
 struct Progress {
   std::string state;             ///< "running", "paused", ...
   double time = 0.0;             ///< s of the session
-  std::optional<double> factor;  ///< s of the session in a second of the wall
-  bool slow = false;             ///< the machine does not keep up with the rate that was asked for
+  std::optional<double> factor;  ///< s of the session per second of wall time
+  bool slow = false;             ///< the machine is too slow for the requested rate
   std::int64_t messages = 0;     ///< published
 };
 
 /// /diagnostics of the nodelet. Thread-safe.
 class Diagnostics {
  public:
-  /// `session`: what is driven, in words. `duration`: s. `rate`: as asked for.
+  /// `session`: description of the session. `duration`: s. `rate`: requested rate.
   Diagnostics(ros::NodeHandle& nh, ros::NodeHandle& private_nh, const std::string& name, std::string session,
               double duration, double rate);
 
   void report(const Progress& progress);
-  /// Publishes; to be called about once a second, by the wall clock.
+  /// Publishes. Call about once per second of wall time.
   void update() { updater_.force_update(); }
 
  private:

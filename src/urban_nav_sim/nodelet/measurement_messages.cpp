@@ -24,9 +24,8 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr int kJpegQuality = 90;  // the Ladybug2's own compression is about as good
-constexpr double kUnknown =
-    -1.0;  // first element of a covariance: what it belongs to is not measured (sensor_msgs/Imu)
+constexpr int kJpegQuality = 90;   // about the quality of the compression of the Ladybug2
+constexpr double kUnknown = -1.0;  // first element of the covariance of an unmeasured quantity (sensor_msgs/Imu)
 
 std_msgs::Header header(StampNs stamp, const std::string& frame) {
   std_msgs::Header made;

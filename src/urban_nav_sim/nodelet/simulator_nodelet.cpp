@@ -29,13 +29,13 @@ using urban_nav_core::UserError;
 
 namespace {
 
-constexpr std::chrono::milliseconds kTick{100};  // while time stands, /clock is said once more so often
-constexpr std::chrono::seconds kLastWords{1};    // what the publishers still have in their queues is sent in this time
+constexpr std::chrono::milliseconds kTick{100};  // period of repeating /clock while time stops
+constexpr std::chrono::seconds kLastWords{1};    // time for publishers to send their queues
 
 }  // namespace
 
-/// The simulated robot on topics: one worker drives the session, converts and publishes at the pace that is wanted, or
-/// as fast as it renders.
+/// The simulated robot on topics: one worker simulates the session, converts and publishes at the requested rate, or as
+/// fast as it renders.
 class SimulatorNodelet : public nodelet::Nodelet {
  public:
   ~SimulatorNodelet() override {
@@ -51,7 +51,7 @@ class SimulatorNodelet : public nodelet::Nodelet {
   void readParameters();
   void advertiseServices();
 
-  // In the worker's thread.
+  // Runs in the thread of the worker.
   void work();
   bool drive();
   void publish(const std::vector<TopicMessage>& messages, StampNs taken);
@@ -67,9 +67,9 @@ class SimulatorNodelet : public nodelet::Nodelet {
   PlaybackControl orders_;
   std::thread worker_;
 
-  // The worker's own, once it has begun.
+  // Used only by the worker after its start.
   std::unique_ptr<TopicPublisher> outlet_;
-  Clock::time_point begin_;  // before it no message leaves
+  Clock::time_point begin_;  // no message is sent before
   std::optional<RateController> pace_;
   StampNs session_begin_ = 0, now_ = 0;
   std::int64_t published_ = 0;  // in this session
@@ -140,7 +140,7 @@ void SimulatorNodelet::work() try {
   ros::requestShutdown();
 }
 
-/// The session from its beginning to its end; false where it is not to go on.
+/// Runs the session from begin to end; returns false to stop.
 bool SimulatorNodelet::drive() {
   report("building the world", now_);
   Session session(options_);
@@ -177,7 +177,7 @@ void SimulatorNodelet::publish(const std::vector<TopicMessage>& messages, StampN
       *pace_->factor(), parameters_.rate);
 }
 
-/// Waits until `due()`, through pauses; false where the session is not to go on.
+/// Waits until `due()`, including pauses; returns false to stop the session.
 template <typename Due>
 bool SimulatorNodelet::hold(const char* state, const Due& due) {
   while (true) {

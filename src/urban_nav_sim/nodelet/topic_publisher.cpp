@@ -16,7 +16,7 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr StampNs kClockStep = 5'000'000;  // ns, that of the truth
+constexpr StampNs kClockStep = 5'000'000;  // ns, as the truth
 
 tf2_msgs::TFMessage asTransform(const geometry_msgs::PoseStamped& pose) {
   geometry_msgs::TransformStamped transform;

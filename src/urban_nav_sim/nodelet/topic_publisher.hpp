@@ -15,13 +15,13 @@
 
 namespace urban_nav_sim {
 
-/// The simulator's side of the graph: all topics of some sensors, /tf_static, and /clock if the graph keeps simulated
-/// time. Used by the worker alone. No /tf: where the robot is in the world, its odometry has to find out. Who is to see
-/// the truth as tf (rviz) hears ground_truth/tf in its place.
+/// Publishers of the simulator: all topics of some sensors, /tf_static, and /clock with use_sim_time. Used only by the
+/// worker. Does not publish /tf, which is the output of odometry; the true pose is available as tf on ground_truth/tf,
+/// for rviz.
 class TopicPublisher {
  public:
-  /// Advertises all of them, so that subscribers may connect before the first message. `queue`: messages that may wait
-  /// for a subscriber.
+  /// Advertises all topics, so that subscribers can connect before the first message. `queue`: queue size per
+  /// subscriber.
   TopicPublisher(ros::NodeHandle& nh, const std::set<Sensor>& sensors, std::uint32_t queue);
 
   bool keepsTime() const { return clock_; }
@@ -30,9 +30,9 @@ class TopicPublisher {
   /// The message is shared with nodelets of the same process: it must not be modified afterwards. The true pose goes to
   /// ground_truth/tf as well.
   void publish(const TopicMessage& message);
-  /// Advances /clock to `now`, in steps of 5 ms at least; or back, where a session begins.
+  /// Advances /clock to `now`, in steps of at least 5 ms, or resets it at the begin of a session.
   void advance(urban_nav_core::StampNs now);
-  /// /clock once more, for those who came while it stood.
+  /// Publishes /clock again, for new subscribers while time stops.
   void repeatClock();
 
  private:

@@ -17,12 +17,12 @@ namespace segway_drivers {
 struct Bb2StampedPair {
   Bb2Frame frame;
   TimeNs arrival = 0;  ///< ns
-  TimeNs stamp = 0;    ///< by the time of the bus, less the latency, ns
-  int missing = 0;     ///< pairs lost since the one before, by the frame counter
+  TimeNs stamp = 0;    ///< from bus time, minus the latency, ns
+  int missing = 0;     ///< pairs lost since the previous one, by the frame counter
 };
 
-/// Driver of a Bumblebee2 over a FrameSource: sets the order of the imagers and the embedded information, finds where
-/// the latter lies, and stamps pairs by the clock of the bus. Reports imagers that are exchanged. Not thread-safe.
+/// Driver of a Bumblebee2 over a FrameSource: configures the order of the imagers and the embedded information, locates
+/// the latter, and stamps pairs by the bus clock. Reports exchanged imagers. Not thread-safe.
 class Bb2Camera {
  public:
   struct Options {
@@ -34,7 +34,7 @@ class Bb2Camera {
 
   /// Opens and configures the camera and starts its stream. Returns false and sets `error` on failure.
   bool start(std::string& error);
-  /// Waits up to `timeout` ns for a pair. Empty: none came, it was corrupt, or its time is not known yet.
+  /// Waits up to `timeout` ns for a pair. Empty: none arrived, it was corrupt, or its time is not known yet.
   std::optional<Bb2StampedPair> next(TimeNs timeout);
 
   const std::string& identity() const { return identity_; }

@@ -9,13 +9,14 @@
 
 namespace segway_drivers {
 
-/// Frames of a simulated Bumblebee2 from the stereo images of a bag, image_raw or image_rect. Throws UserError if the
-/// bag cannot be read or has none.
+/// Reads frames of a simulated Bumblebee2 from the stereo images of a bag, image_raw or image_rect. Throws UserError if
+/// the bag cannot be read or has none.
 FrameReader readStereoFrames(const std::string& bag);
-/// Frames of a simulated Ladybug2 from the images of its five cameras in a bag. Throws UserError as above.
+/// Reads frames of a simulated Ladybug2 from the images of its five cameras in a bag. Throws UserError as above.
 FrameReader readLadybugFrames(const std::string& bag);
 
-/// Calibration of one side of the stereo camera in a bag, scaled to the size of the imager; empty if the bag has none.
+/// Returns the calibration of one side of the stereo camera in a bag, scaled to the size of the imager; empty if the
+/// bag has none.
 std::optional<urban_nav_core::CameraInfo> readStereoInfo(const std::string& bag, const std::string& side);
 
 }  // namespace segway_drivers

@@ -11,23 +11,23 @@
 
 namespace segway_drivers {
 
-/// Frame of a simulated camera without the words that the camera embeds.
+/// Frame of a simulated camera without embedded words.
 struct SimFrame {
-  double time = 0.0;  ///< s since the session began
+  double time = 0.0;  ///< s since the start of the session
   Bytes bytes;
   TimeNs recorded = 0;  ///< stamp in the recording, ns
 };
 
-/// Gives the frames of a session in order of time, and nothing after the last.
+/// Returns the frames of a session in order of time, and nothing after the last.
 using FrameReader = std::function<std::optional<SimFrame>()>;
 
-/// What can go wrong with a simulated camera for some time, s since the session began.
+/// Fault of a simulated camera for an interval of time, s since the start of the session.
 struct SimCameraFault {
   enum class Kind {
-    Unplug,   ///< the camera vanishes from the bus
-    Silence,  ///< no frame comes
+    Unplug,   ///< the camera disappears from the bus
+    Silence,  ///< no frame arrives
     Corrupt,  ///< packets are missing in each frame
-    Power     ///< the camera is off; its registers and its counter begin again
+    Power     ///< the camera is off; registers and counter are reset
   } kind = Kind::Silence;
   double start = 0.0, duration = 1.0;
 };
@@ -44,19 +44,19 @@ struct SimCameraOptions {
   enum class Model { Bumblebee2, Ladybug2 } model = Model::Bumblebee2;
   std::uint32_t pattern = 0x59595959;  ///< register 0x1040, "YYYY"
   double transfer = 0.02;              ///< s from the middle of the exposure to the arrival
-  double bus_begin = 0.0;              ///< s, time of the bus when the session begins
-  double bus_skew = 0.0;               ///< bus seconds per second less 1
-  /// Begin of the session by the clock, ns; empty while it has none: there is no camera yet. Asked until it has one.
-  /// Without the function a session begins when the camera is first opened.
+  double bus_begin = 0.0;              ///< s, bus time at the start of the session
+  double bus_skew = 0.0;               ///< bus seconds per second minus 1
+  /// Returns the start of the session on the clock, ns; empty while unknown: the camera does not exist yet. Called
+  /// until known. Without the function a session starts when the camera is first opened.
   std::function<std::optional<TimeNs>()> begin;
-  bool is_paced = false;  ///< `read` waits until a frame is wanted: what is late is not lost in the ring of buffers
+  bool is_paced = false;  ///< `read` waits until a frame is requested; late frames are not lost in the ring buffer
   std::vector<SimCameraFault> faults;
 };
 
-/// A camera on a simulated bus: a map of registers, frames at their times, and the clock of the bus, which wraps after
-/// 128 s. A frame holds the embedded words that its register asks for. `read` gives the frames in order of time, and
-/// nothing after the last; its own duration delays frames. Frames that nobody fetched for 0.4 s are lost, as in a ring
-/// of buffers, unless the session is paced, and so are those from before the stream was started. Not thread-safe.
+/// A camera on a simulated bus: registers, frames at their times, and the bus clock, which wraps after 128 s. A frame
+/// contains the embedded words selected by its register. `read` returns the frames in order of time, and nothing after
+/// the last; its duration delays frames. Frames not fetched within 0.4 s are lost, as in a ring buffer, unless the
+/// session is paced; frames before the start of the stream are lost too. Not thread-safe.
 class SimSource : public FrameSource {
  public:
   SimSource(FrameReader read, SimCameraOptions options, SimClock clock);
@@ -86,7 +86,7 @@ class SimSource : public FrameSource {
   SimClock clock_;
   std::optional<TimeNs> begin_;
   std::optional<SimFrame> waiting_;
-  TimeNs started_ = 0, in_ring_ = 0;  // of the stream; of the newest frame
+  TimeNs started_ = 0, in_ring_ = 0;  // start of the stream; time of the newest frame
   std::map<std::uint64_t, std::uint32_t> registers_;
   std::uint32_t sequence_ = 0;
   bool streams_ = false, finished_ = false, was_off_ = false;

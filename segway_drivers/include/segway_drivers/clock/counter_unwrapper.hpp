@@ -11,17 +11,16 @@ namespace segway_drivers {
 /// Position of a measurement in the sequence of its device.
 struct UnwrappedCount {
   std::int64_t count = 0;    ///< measurements since the first, losses included
-  std::int64_t missing = 0;  ///< measurements lost since the one before
+  std::int64_t missing = 0;  ///< measurements lost since the previous one
   bool repeated = false;     ///< the counter has not changed
-  bool restarted = false;    ///< the counter contradicts the arrival times: the device began again
+  bool restarted = false;    ///< the counter contradicts the arrival times: the device has restarted
 };
 
-/// Extends a counter of few bits to one that does not wrap, by rounding against the elapsed arrival time.
-/// Deterministic. Not thread-safe.
+/// Unwraps a counter of few bits by rounding to the elapsed arrival time. Deterministic. Not thread-safe.
 class CounterUnwrapper {
  public:
-  /// `modulus`: values of the counter, 0: the device has none, and measurements are counted by arrival time alone.
-  /// `period`: s between measurements.
+  /// `modulus`: number of counter values; 0: no counter, measurements are counted by arrival time. `period`: s between
+  /// measurements.
   CounterUnwrapper(std::uint32_t modulus, double period) : modulus_(modulus), period_(period) {}
 
   /// `arrival` in ns; 0: unknown, and a gap is less than one wrap.

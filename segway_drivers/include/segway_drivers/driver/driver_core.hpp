@@ -24,35 +24,35 @@ struct DriverAction {
   int baud = 0;  ///< of SetBaud
 };
 
-/// Remark for the diagnostics and the log.
+/// Message for diagnostics and log.
 struct DriverEvent {
   bool warning = false;
   std::string text;
 };
 
-/// Driver of one device without its transport: given bytes and the time, it asks for bytes to be written and for
-/// changes of the line rate. Times come from one steady clock, ns. Reads no clock, never blocks. Not thread-safe.
+/// Driver of one device without transport: given bytes and time, it requests writes and changes of the line rate. Times
+/// are those of one steady clock, ns. Reads no clock, never blocks. Not thread-safe.
 class DriverCore {
  public:
   virtual ~DriverCore() = default;
 
-  /// The port has been opened. What it was set to before does not matter.
+  /// Reports that the port was opened, with any settings.
   void open(TimeNs now);
-  /// The port has vanished or was closed.
+  /// Reports that the port disappeared or was closed.
   void close(TimeNs now);
   virtual void feed(ByteView chunk, const ChunkArrival& arrival) = 0;
-  /// To be called at least every 10 ms while the port is open.
+  /// Must be called at least every 10 ms while the port is open.
   virtual void tick(TimeNs now) = 0;
 
-  /// Actions since the last call, in order.
+  /// Returns the actions since the last call, in order.
   std::vector<DriverAction> takeActions() { return std::exchange(actions_, {}); }
   std::vector<DriverEvent> takeEvents() { return std::exchange(events_, {}); }
 
   DriverState state() const { return state_; }
-  /// What the device says it is; empty until known.
+  /// Returns the identity reported by the device; empty until known.
   const std::string& identity() const { return identity_; }
   DeviceCounters counters() const;
-  /// Null if the device has no clock of its own.
+  /// Returns null if the device has no clock.
   virtual const ClockFilter* clock() const { return nullptr; }
 
  protected:
@@ -76,16 +76,16 @@ class DriverCore {
   std::int64_t openings_ = 0, stalls_ = 0, unexpected_ = 0, timeouts_ = 0;
 };
 
-/// A request that is repeated until its answer comes, three times at most.
+/// A request that is repeated until its answer arrives, at most three times.
 class PendingRequest {
  public:
-  /// Sends at the next due().
+  /// Schedules the request for the next due().
   void start(Bytes bytes, TimeNs timeout, int tries = 3);
   void stop() { active_ = false; }
   bool isActive() const { return active_; }
 
   enum class Due { Nothing, Send, Failed };
-  /// Whether to send the request, for the first time or again, or to give up.
+  /// Returns whether to send the request, for the first time or again, or to give up.
   Due due(TimeNs now);
   const Bytes& bytes() const { return bytes_; }
 

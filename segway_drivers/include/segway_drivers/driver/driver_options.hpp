@@ -11,7 +11,7 @@
 
 namespace segway_drivers {
 
-/// Options of each driver from the parameters.
+/// Returns the options of each driver from the parameters.
 LmsDriver::Options toLmsOptions(const Parameters& parameters);
 MtiDriver::Options toMtiOptions(const Parameters& parameters);
 RmpDriver::Options toRmpOptions(const Parameters& parameters);

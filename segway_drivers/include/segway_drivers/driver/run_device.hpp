@@ -16,15 +16,15 @@ namespace segway_drivers {
 /// Opens a device: a path of a serial port, HOST:PORT of a TCP server, or a CAN interface such as can0 or vcan0.
 std::unique_ptr<Port> openPort(const std::string& name, std::string& error);
 
-/// Drives a DriverCore from a port: reads, ticks, writes, opens again with growing pauses. One call of step() takes at
-/// most `wait`. Not thread-safe.
+/// Runs a DriverCore on a port: reads, ticks, writes, reopens with increasing pauses. A call of step() takes at most
+/// `wait`. Not thread-safe.
 class DriverLoop {
  public:
   DriverLoop(DriverCore& core, std::string port);
 
-  /// Opens the port for the first time. Throws DataError naming it if that fails.
+  /// Opens the port for the first time. Throws DataError with its name on failure.
   void open();
-  /// Waits up to `wait` ns for bytes and does what is due.
+  /// Waits up to `wait` ns for bytes and performs due actions.
   void step(TimeNs wait);
   bool isOpen() const { return port_ != nullptr; }
   const std::string& remark() const { return remark_; }
@@ -40,7 +40,7 @@ class DriverLoop {
   TimeNs pause_ = 0, next_try_ = 0;
 };
 
-/// A velocity wish of a drive file.
+/// A velocity command of a drive file.
 struct DriveWish {
   TimeNs time = 0;  ///< ns since the port was opened
   RmpCommand wish;
@@ -52,8 +52,8 @@ struct RunJob {
   std::string kind;  ///< lms291, xsens_mti, segway_rmp, gps
   std::string port;
   double duration = 0;  ///< s
-  std::string output;   ///< CSV as of decode
-  std::string drive;    ///< file of wishes for segway_rmp, or empty
+  std::string output;   ///< CSV as written by decode
+  std::string drive;    ///< file of velocity commands for segway_rmp, or empty
 };
 
 struct RunResult {
@@ -62,8 +62,8 @@ struct RunResult {
   double offset_s = 0.0, skew_ppm = 0.0, sigma_us = 0.0;
 };
 
-/// Runs a driver without ROS and writes its messages, stamped in real time; messages before the first estimate of the
-/// clock are left out. `report` receives events. Throws UserError, and DataError if the port is missing at the start.
+/// Runs a driver without ROS and writes its messages with stamps of real time; messages before the first clock estimate
+/// are omitted. `report` receives events. Throws UserError, and DataError if the port is missing at the start.
 RunResult runDevice(const RunJob& job, const Parameters& parameters,
                     const std::function<void(const DriverEvent&)>& report);
 

@@ -9,13 +9,13 @@
 
 namespace segway_drivers {
 
-/// Driver of a receiver at a serial port, or of gpsd. Finds the line rate by two right checksums. Sends nothing to a
+/// Driver of a receiver on a serial port, or of gpsd. Finds the line rate by two correct checksums. Sends no data to a
 /// receiver.
 class GpsDriver : public DriverCore {
  public:
   struct Options {
     GpsStream::Options stream;
-    bool gpsd = false;  ///< asks for reports instead of searching the line rate
+    bool gpsd = false;  ///< requests reports instead of searching the line rate
   };
   explicit GpsDriver(const Options& options);
 
@@ -33,7 +33,7 @@ class GpsDriver : public DriverCore {
   GpsStream stream_;
   std::set<std::string> kinds_;
   std::size_t rate_ = 0;
-  int messages_ = 0;  // since the rate was set
+  int messages_ = 0;  // since the last change of rate
   TimeNs now_ = 0, last_message_ = 0;
 };
 

@@ -8,18 +8,19 @@
 
 namespace segway_drivers {
 
-/// Framing rule of Garmin's binary protocol: DLE, identifier, size, data, checksum, DLE, ETX, with DLE doubled inside.
+/// Framing rule of the binary protocol of Garmin: DLE, identifier, size, data, checksum, DLE, ETX, with DLE doubled
+/// inside.
 FrameProbe probeGarminPacket(ByteView bytes);
 
-/// Identifier and data of a whole packet.
+/// Identifier and data of a complete packet.
 struct GarminPacket {
   std::uint8_t id = 0;
   Bytes data;
 };
 GarminPacket splitGarminPacket(ByteView packet);
 
-/// Fix of a packet of position, velocity and time (33h). A date before the leap second that it states is 1024 weeks
-/// early and is corrected. Returns nullopt for other packets and for values that are not possible.
+/// Decodes a packet of position, velocity and time (33h). A date before the stated leap second is 1024 weeks early and
+/// is corrected. Returns nullopt for other packets and for impossible values.
 std::optional<GpsFix> decodeGarminFix(const GarminPacket& packet);
 
 }  // namespace segway_drivers

@@ -12,9 +12,9 @@ namespace segway_drivers {
 
 constexpr std::size_t kGpsdLongestLine = 16384;  // bytes
 
-/// Request for reports as JSON lines.
+/// Returns the request for reports as JSON lines.
 Bytes makeGpsdWatch();
-/// Framing rule of gpsd's lines: from `{"class":` to the end of the line.
+/// Framing rule of lines of gpsd: from `{"class":` to the end of the line.
 FrameProbe probeGpsdLine(ByteView bytes);
 
 /// A line of gpsd.
@@ -24,7 +24,7 @@ struct GpsdReport {
   std::optional<int> satellites;  ///< used, of a SKY
   std::string version;            ///< release of a VERSION
 };
-/// Returns nullopt for text that is no JSON object with a class. Missing keys and values of other types are absent
+/// Returns nullopt for text other than a JSON object with a class. Missing keys and values of other types are empty
 /// values.
 std::optional<GpsdReport> parseGpsdLine(std::string_view line);
 

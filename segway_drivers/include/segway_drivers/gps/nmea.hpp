@@ -12,32 +12,31 @@
 
 namespace segway_drivers {
 
-/// `$` and the checksum added to the body of a sentence, with CR and LF.
+/// Returns a sentence: `$`, body, checksum, CR and LF.
 Bytes makeNmeaSentence(std::string_view body);
-/// Framing rule of sentences: printable characters from `$` to the end of the line, with the right checksum.
+/// Framing rule of sentences: printable characters from `$` to the end of the line, with a correct checksum.
 FrameProbe probeNmeaSentence(ByteView bytes);
 
-/// Fields of a whole sentence. Views into its bytes.
+/// Fields of a complete sentence. Views into its bytes.
 struct NmeaSentence {
   std::string_view kind;                 ///< "GGA" for any talker, "PGRME" for proprietary ones
-  std::vector<std::string_view> fields;  ///< [0] is the first after the name
+  std::vector<std::string_view> fields;  ///< [0] follows the name
 
   std::string_view field(std::size_t i) const { return i < fields.size() ? fields[i] : std::string_view(); }
 };
 NmeaSentence splitNmeaSentence(ByteView sentence);
 
 /// Groups sentences into fixes by their time: GGA, GNS, GLL and RMC (position), GST and GBS (errors), ZDA (date). GSA,
-/// VTG and PGRME carry no time and belong to the group they arrive in.
-/// A fix is given out once the sentence arrives that ended the groups before, or the first one of another time, or
-/// finish() is called. Not thread-safe.
+/// VTG and PGRME have no time and belong to the group in which they arrive. A fix is passed on when the sentence
+/// arrives that ended previous groups, or the first one of another time, or finish() is called. Not thread-safe.
 class NmeaFixBuilder {
  public:
   using Sink = std::function<void(const GpsFix&)>;
-  /// `uere`: m, by which dilutions of precision are multiplied where the receiver states no errors.
+  /// `uere`: m, factor of dilutions of precision if the receiver states no errors.
   explicit NmeaFixBuilder(double uere) : uere_(uere) {}
 
   void add(const NmeaSentence& sentence, std::uint64_t offset, TimeNs arrival, const Sink& sink);
-  /// Gives out the present group, as after silence.
+  /// Passes on the current group, as after silence.
   void finish(const Sink& sink);
   bool isOpen() const { return open_; }
 

@@ -12,23 +12,23 @@
 namespace segway_drivers {
 
 /// Stream of a receiver or of gpsd: NMEA sentences, binary packets of Garmin and u-blox and lines of gpsd,
-/// distinguished by content. Corrections in RTCM are recognised. Each time is given out once. Reads no clock. Not
+/// distinguished by content. RTCM corrections are recognised. Each time is passed on once. Reads no clock. Not
 /// thread-safe.
 class GpsStream {
  public:
   struct Options {
     double uere = 4.5;     ///< m
-    double latency = 0.0;  ///< s from the instant of a fix to its first byte
+    double latency = 0.0;  ///< s from the time of a fix to its first byte
   };
   explicit GpsStream(const Options& options);
 
-  /// A fix and its stamp, ns: the arrival of its first byte less the latency.
+  /// A fix and its stamp, ns: arrival of its first byte minus the latency.
   std::function<void(const GpsFix& fix, std::optional<TimeNs> stamp)> on_fix;
   /// Sentences and reports received, by kind: "GGA", "garmin 33", "ubx 01-07", "rtcm 1005", "gpsd TPV".
   std::function<void(const std::string& kind)> on_message;
 
   void feed(ByteView chunk, const ChunkArrival& arrival);
-  /// Gives out the present group of sentences after 0.4 s of silence.
+  /// Passes on the current group of sentences after 0.4 s of silence.
   void expire(TimeNs now);
   void finish();
   void clear() { frames_.clear(); }

@@ -7,10 +7,9 @@
 
 namespace segway_drivers {
 
-/// Returns the likely protocol of a stream in which no frame of a receiver is whole, as the end of a sentence: "SiRF
+/// Returns the likely protocol of a stream without a complete frame of a receiver, as the end of a sentence: "SiRF
 /// binary, which is not read: ...", "NMEA whose checksums are wrong or missing", "a wrong line rate ...". Protocols are
-/// recognised by frames that are whole by their own rules, a wrong line rate by bytes that are neither text nor such
-/// frames.
+/// recognised by frames complete by their rules, a wrong line rate by bytes that are neither text nor such frames.
 std::string describeUnknownStream(ByteView bytes);
 
 }  // namespace segway_drivers

@@ -12,35 +12,35 @@
 
 namespace segway_drivers {
 
-/// A frame as it arrived, with its stamp on the steady clock.
+/// A frame as received, with its stamp on the steady clock.
 struct LadybugStampedFrame {
-  Bytes bytes;  ///< up to the size that its header states
+  Bytes bytes;  ///< up to the size stated by its header
   std::uint32_t sequence = 0;
   double bus_time = 0.0;  ///< s modulo 128
   TimeNs arrival = 0;     ///< ns
-  TimeNs stamp = 0;       ///< by the time of the bus, less the latency, ns
+  TimeNs stamp = 0;       ///< from bus time, minus the latency, ns
 };
 
-/// Driver of a Ladybug2 over a FrameSource: sets quality and selection of the JPEGs, checks frames, stamps them by the
-/// clock of the bus, and passes on as many a second as asked for. Not thread-safe.
+/// Driver of a Ladybug2 over a FrameSource: configures quality and selection of the JPEGs, checks frames, stamps them
+/// by the bus clock, and limits the rate. Not thread-safe.
 class LadybugCamera {
  public:
   struct Options {
     double latency = 0.0;  ///< s from the middle of the exposure to the embedded time
-    double rate = 3.0;     ///< Hz, most frames to pass on
+    double rate = 3.0;     ///< Hz, largest rate of frames
     int quality = 60;      ///< of the JPEGs, 1...100
   };
   LadybugCamera(FrameSource& source, const Options& options) : source_(source), options_(options) {}
 
   /// Opens and configures the camera and starts its stream. Returns false and sets `error` on failure.
   bool start(std::string& error);
-  /// Waits up to `timeout` ns for a frame. Empty: none came, it was corrupt, it is beyond the rate, or its time is
+  /// Waits up to `timeout` ns for a frame. Empty: none arrived, it was corrupt, it exceeds the rate, or its time is
   /// unknown.
   std::optional<LadybugStampedFrame> next(TimeNs timeout);
 
   const std::string& identity() const { return identity_; }
   const DeviceCounters& counters() const { return counters_; }
-  /// Channels of the ring's cameras that were missing or damaged.
+  /// Returns the number of missing or damaged channels of the ring cameras.
   std::int64_t badChannels() const { return bad_channels_; }
   std::vector<DriverEvent> takeEvents() { return std::exchange(events_, {}); }
 

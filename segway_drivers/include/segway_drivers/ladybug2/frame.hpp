@@ -14,24 +14,24 @@ namespace segway_drivers {
 constexpr std::size_t kLadybugCameras = 6, kLadybugPlanes = 4;
 constexpr std::size_t kLadybugMaxFrame = 2'022'400;  // bytes, the largest container
 
-/// Header of a frame and its directory of grey JPEGs. Views into the bytes of the frame.
+/// Header of a frame and directory of its grey JPEGs. Views into the bytes of the frame.
 struct LadybugFrame {
   std::optional<double> bus_time;  ///< s modulo 128
-  std::uint32_t sequence = 0;      ///< frames since the head was switched on
+  std::uint32_t sequence = 0;      ///< frames since power-on of the head
   std::optional<MosaicPattern> pattern;
   std::array<std::array<ByteView, kLadybugPlanes>, kLadybugCameras> planes;  ///< empty: bad or missing
   int bad_channels = 0;
 };
 
-/// Reads a frame as it arrives from the bus. `backward`: the directory lists camera 5 first. Returns nullopt without
-/// the header's mark, or if the size it states exceeds the bytes. A bad channel costs nothing but itself.
+/// Parses a frame from the bus. `backward`: the directory lists camera 5 first. Returns nullopt without the header
+/// mark, or if the stated size exceeds the bytes. A bad channel does not affect others.
 std::optional<LadybugFrame> splitLadybugFrame(ByteView bytes, bool backward);
 
-/// Framing rule of containers one after another; .pgr files are found by it too, since their frames have the same form.
+/// Framing rule of consecutive containers, also of .pgr files, whose frames have the same format.
 FrameProbe probeLadybugFrame(ByteView bytes);
 
-/// Upright colour image of half resolution (384x512). Returns an empty image if a channel of the camera is bad or
-/// cannot be decoded.
+/// Returns the upright colour image at half resolution (384x512); empty if a channel of the camera is bad or cannot be
+/// decoded.
 cv::Mat decodeLadybugCamera(const LadybugFrame& frame, std::size_t camera, MosaicPattern pattern);
 
 }  // namespace segway_drivers

@@ -10,7 +10,7 @@ namespace segway_drivers {
 /// Telegrams from the host to an LMS291.
 Bytes lmsStopCommand();
 Bytes lmsStreamAllCommand();
-/// Streams ranges and reflectivities of the beams `first`...`last`, 1-based.
+/// Requests a stream of ranges and reflectivities of the beams `first`...`last`, 1-based.
 Bytes lmsStreamReflectivitiesCommand(int first = 1, int last = 181);
 Bytes lmsPollCommand();
 Bytes lmsStatusCommand();
@@ -21,7 +21,7 @@ Bytes lmsInstallationCommand();
 Bytes lmsResetCommand();
 /// Returns nullopt for a rate other than 9600, 19200, 38400, 500000.
 std::optional<Bytes> lmsBaudCommand(int baud);
-/// Writes a configuration of the same length as the device reported, in installation mode.
+/// Writes a configuration of the length reported by the device, in installation mode.
 Bytes lmsWriteConfigurationCommand(ByteView configuration);
 
 }  // namespace segway_drivers

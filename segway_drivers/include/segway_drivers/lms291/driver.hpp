@@ -9,12 +9,12 @@
 namespace segway_drivers {
 
 /// Driver of an LMS291-S14. Finds the line rate, raises it to 500 000 baud, reads type, status and configuration, and
-/// asks for ranges with reflectivities. A device that streams already is not interrupted.
+/// requests ranges with reflectivities. A device that already streams is not interrupted.
 class LmsDriver : public DriverCore {
  public:
   struct Options {
     LmsStream::Options stream;
-    bool configure = false;  ///< may rewrite a configuration whose ranges cannot be decoded
+    bool configure = false;  ///< rewrites a configuration whose ranges cannot be decoded
   };
   explicit LmsDriver(const Options& options);
 

@@ -8,32 +8,31 @@
 
 namespace segway_drivers {
 
-/// What the words of a range mean, from the configuration of the device.
+/// Encoding of ranges, from the configuration of the device.
 struct LmsRangeFormat {
   int bits = 15;            ///< 13...16 bits of range; the bits above are flags
   bool millimetres = true;  ///< otherwise centimetres
 
-  /// Format of a measuring mode (byte 5 of the configuration) and a unit (byte 6). Returns nullopt for modes that do
-  /// not send ranges.
+  /// Returns the format of a measuring mode (byte 5 of the configuration) and a unit (byte 6), or nullopt for modes
+  /// without ranges.
   static std::optional<LmsRangeFormat> fromConfiguration(std::uint8_t measuring_mode, std::uint8_t unit);
-  /// Largest range that is no code, m.
+  /// Returns the largest range that is not a code, m.
   double maxRange() const;
 };
 
-/// One revolution of the mirror. Beams are counter-clockwise seen from above.
+/// One revolution of the mirror. Beams are counter-clockwise from above.
 struct LmsScan {
-  std::vector<float> ranges;                 ///< m; +inf for open air (codes -1, -6, -9), NaN for the other codes
+  std::vector<float> ranges;                 ///< m; +inf for no return (codes -1, -6, -9), NaN for other codes
   std::vector<int> codes;                    ///< counts by code -1...-9 at [1]...[9]; [0] counts ranges
-  std::vector<std::uint8_t> reflectivities;  ///< 0...255, not calibrated; as many as ranges, or none
+  std::vector<std::uint8_t> reflectivities;  ///< 0...255, uncalibrated; as many as ranges, or none
   std::optional<std::uint8_t> index;         ///< telegram index modulo 256
   std::uint8_t status = 0;                   ///< status byte of the telegram
 
   bool polluted() const { return (status & 0x80) != 0; }
 };
 
-/// Decodes the payload of a scan (B0h or C4h) as mode 24h, 30h or 50h sends it. The unit comes from the telegram;
-/// `format` supplies the bits of a range. Returns nullopt for other telegrams, partial scans, and counts that do not
-/// fit the length.
+/// Decodes the payload of a scan (B0h or C4h) of mode 24h, 30h or 50h. The unit is that of the telegram; `format` gives
+/// the bits of a range. Returns nullopt for other telegrams, partial scans, and counts inconsistent with the length.
 std::optional<LmsScan> decodeLmsScan(ByteView payload, const LmsRangeFormat& format);
 
 }  // namespace segway_drivers

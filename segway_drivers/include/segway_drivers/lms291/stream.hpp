@@ -14,7 +14,7 @@ namespace segway_drivers {
 constexpr double kLmsPeriod =
     0.013338;  // s, of the mirror; measured on both lasers of the New College log (nominal 75 Hz)
 
-/// A scan with its place in the stream and in time.
+/// A scan with its position in the stream and its stamp.
 struct LmsStampedScan {
   LmsScan scan;
   std::uint64_t offset = 0;     ///< of the telegram's first byte in the stream
@@ -22,7 +22,7 @@ struct LmsStampedScan {
   TimeNs arrival = 0;           ///< of the first byte, ns; 0: unknown
   std::optional<TimeNs> stamp;  ///< of the first beam, ns; empty while the clock settles
   double sigma = 0.0;           ///< s
-  int epoch = 0;                ///< of the clock; stamps rise within one
+  int epoch = 0;                ///< of the clock; stamps increase within an epoch
 };
 
 /// Stream of an LMS291: bytes with arrival times in, stamped scans and replies out. Reads no clock. Not thread-safe.
@@ -35,13 +35,13 @@ class LmsStream {
   explicit LmsStream(const Options& options);
 
   std::function<void(const LmsStampedScan&)> on_scan;
-  /// Payload of a telegram that is no scan; valid during the call.
+  /// Payload of a telegram other than a scan; valid during the call.
   std::function<void(ByteView payload)> on_reply;
 
   void feed(ByteView chunk, const ChunkArrival& arrival);
   void expire(TimeNs now);
   void finish();
-  /// Forgets buffered bytes.
+  /// Discards buffered bytes.
   void clear() { frames_.clear(); }
   void setBaud(double baud) { frames_.setBaud(baud); }
   void setFormat(const LmsRangeFormat& format) { options_.format = format; }

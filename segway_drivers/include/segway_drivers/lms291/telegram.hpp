@@ -12,13 +12,13 @@ constexpr std::size_t kLmsMaxTelegram = 812;  // bytes
 /// half.
 std::uint16_t computeLmsCrc(ByteView bytes);
 
-/// Telegram from the host to the address 0 (broadcast): STX, address, length, `payload`, CRC.
+/// Returns a telegram to address 0 (broadcast): STX, address, length, `payload`, CRC.
 Bytes makeLmsTelegram(ByteView payload);
 
-/// Framing rule of telegrams from a device at the default address. A length that the command cannot have is no frame.
+/// Framing rule of telegrams from a device at the default address. A length impossible for the command is no frame.
 FrameProbe probeLmsTelegram(ByteView bytes);
 
-/// Payload of a whole telegram: command byte, data, and the status byte at its end.
+/// Returns the payload of a complete telegram: command byte, data, and final status byte.
 ByteView lmsPayload(ByteView telegram);
 
 }  // namespace segway_drivers

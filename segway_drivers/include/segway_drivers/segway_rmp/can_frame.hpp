@@ -17,19 +17,19 @@ struct CanFrame {
   std::array<std::uint8_t, 8> data{};
 
   std::uint16_t word(std::size_t i) const { return bigWord(data.data() + 2 * i); }
-  /// Two words, the low one first, from word `i` on.
+  /// Returns the 32-bit value of two words from word `i`, the low one first.
   std::uint32_t pair(std::size_t i) const { return word(i) | static_cast<std::uint32_t>(word(i + 1)) << 16; }
 };
 
 constexpr std::size_t kRmpPacketSize = 18;  // bytes, in both directions
 
-/// USB packet from the host to the base.
+/// Returns the USB packet from the host to the base.
 Bytes makeRmpPacket(const CanFrame& frame);
-/// USB packet from the base, as it would send the frame on channel A.
+/// Returns the USB packet of a frame on channel A from the base.
 Bytes makeRmpBasePacket(const CanFrame& frame);
 /// Framing rule of USB packets from the base.
 FrameProbe probeRmpPacket(ByteView bytes);
-/// Frame of a whole USB packet from the base. Returns nullopt for channel B.
+/// Returns the frame of a complete USB packet from the base, or nullopt for channel B.
 std::optional<CanFrame> splitRmpPacket(ByteView packet);
 
 /// A line of `candump -l`: `(sec.usec) can0 401#0010FFF800040000`.

@@ -11,10 +11,10 @@ struct RmpCommand {
   double turn_rate = 0.0;  ///< rad/s, to the left
 };
 
-/// Decides the command to the base from what the robot wants: the last safeguard before the motors. Zero in these
-/// cases: no wish for `timeout`; the first `hold` after the start; no message of the base for `silence`, and `hold`
-/// after it; an emergency stop until its release; a wish that is not finite or beyond ten times the limits. Accelerates
-/// within limits from the commanded value, brakes at once. All times come from one steady clock. Not thread-safe.
+/// Limits the velocity commands to the base: the last safeguard before the motors. Zero in these cases: no command for
+/// `timeout`; the first `hold` after the start; no message of the base for `silence`, and `hold` after it; an emergency
+/// stop until its release; a command that is not finite or beyond ten times the limits. Accelerates within limits from
+/// the last command sent, brakes immediately. All times are those of one steady clock. Not thread-safe.
 class RmpCommandGuard {
  public:
   struct Limits {
@@ -25,13 +25,13 @@ class RmpCommandGuard {
   explicit RmpCommandGuard(const Limits& limits) : limits_(limits) {}
 
   void setWish(const RmpCommand& wish, TimeNs now);
-  /// A message of the base arrived.
+  /// Reports a message of the base.
   void reportBase(TimeNs now);
   /// Stops until releaseStop().
   void emergencyStop() { stopped_ = true; }
   void releaseStop() { stopped_ = false; }
 
-  /// The command to send now.
+  /// Returns the command to send now.
   RmpCommand step(TimeNs now);
 
  private:

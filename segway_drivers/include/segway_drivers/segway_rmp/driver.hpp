@@ -10,8 +10,7 @@
 
 namespace segway_drivers {
 
-/// Driver of a base over USB packets. tick() writes a motion command every 20 ms, whatever else happens; the guard
-/// decides which.
+/// Driver of a base over USB packets. tick() writes the motion command of the guard every 20 ms in all states.
 class RmpDriver : public DriverCore {
  public:
   struct Options {

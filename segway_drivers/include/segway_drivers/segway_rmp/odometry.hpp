@@ -8,26 +8,26 @@
 
 namespace segway_drivers {
 
-/// Pose of the base in `odom` from the forward and yaw travel of message 0404; continuous across resets of the base.
-/// Not thread-safe.
+/// Integrates the pose of the base in `odom` from the forward and yaw travel of message 0404; continuous across resets
+/// of the base. Not thread-safe.
 class RmpOdometry {
  public:
   struct Limits {
-    double velocity = 4.0;   ///< m/s, beyond which a step is a jump
+    double velocity = 4.0;   ///< m/s, a faster step is a jump
     double turn_rate = 4.0;  ///< rad/s
   };
   RmpOdometry() = default;
   explicit RmpOdometry(const Limits& limits, const RmpUnits& units = {}) : limits_(limits), units_(units) {}
 
-  /// Adds a message 0404. `time` in ns. Returns false for a jump, which moves nothing and is counted.
+  /// Adds a message 0404. `time` in ns. Returns false for a jump, which is counted and leaves the pose unchanged.
   bool add(const CanFrame& travel, TimeNs time);
-  /// The next message continues from the present pose, as after a power cycle.
+  /// Continues from the current pose at the next message, as after a power cycle.
   void restart() { last_forward_.reset(); }
 
   double x() const { return x_; }
   double y() const { return y_; }
   double yaw() const { return yaw_; }
-  double distance() const { return distance_; }  ///< m driven, backwards too
+  double distance() const { return distance_; }  ///< m driven, forward and backward
   std::int64_t jumps() const { return jumps_; }
 
  private:

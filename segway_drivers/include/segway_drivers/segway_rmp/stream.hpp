@@ -11,25 +11,25 @@
 
 namespace segway_drivers {
 
-/// A message of the base with its place in the stream and in time.
+/// A message of the base with its position in the stream and its stamp.
 struct RmpStampedFrame {
   CanFrame frame;
   std::uint64_t offset = 0;
   TimeNs arrival = 0;           ///< ns; 0: unknown
-  std::optional<TimeNs> stamp;  ///< of the cycle that the message belongs to, ns; empty while the clock settles
+  std::optional<TimeNs> stamp;  ///< of the cycle of the message, ns; empty while the clock settles
 };
 
-/// Stream of a base: USB packets or CAN frames in, stamped messages out. The clock is the count of servo frames
-/// (message 0402) against the arrival of the cycle's first message. Reads no clock. Not thread-safe.
+/// Stream of a base: USB packets or CAN frames in, stamped messages out. The clock relates the count of servo frames
+/// (message 0402) to the arrival of the first message of a cycle. Reads no clock. Not thread-safe.
 class RmpStream {
  public:
   explicit RmpStream(double latency);
 
   std::function<void(const RmpStampedFrame&)> on_frame;
 
-  /// Bytes of the USB connection.
+  /// Adds bytes of the USB connection.
   void feed(ByteView chunk, const ChunkArrival& arrival) { packets_.feed(chunk, arrival, sink_); }
-  /// A frame from a CAN bus.
+  /// Adds a frame of a CAN bus.
   void add(const CanFrame& frame, std::uint64_t offset, TimeNs arrival);
   void expire(TimeNs now) { packets_.expire(now, sink_); }
   void finish() { packets_.finish(sink_); }
@@ -47,7 +47,7 @@ class RmpStream {
   ClockFilter clock_;
   CounterUnwrapper counter_;
   std::optional<TimeNs> last_arrival_, cycle_arrival_, cycle_stamp_;
-  bool is_resumed_ = false;  // after a silence, until the next count
+  bool is_resumed_ = false;  // after silence, until the next count
   double cycle_time_ = 0.0;  // s of the device
   std::int64_t frames_ = 0, gaps_ = 0, unexpected_ = 0;
 };

@@ -17,17 +17,17 @@ struct RmpUnits {
   double per_newton_metre = 1094.0;  ///< motor torque
 };
 
-/// Quantities of a message in the order of its words, SI units; wheel travel and forward and yaw travel have two.
-/// Returns nullopt for other identifiers. 0401: pitch, pitch rate, roll, roll rate. 0402: left and right wheel speed,
-/// yaw rate, servo frames in s. 0403: left and right travel. 0404: forward and yaw travel. 0405: left and right torque.
-/// 0406: mode, gain schedule, voltages of interface and base battery. 0407: velocity and turn command in force, the
-/// latter as a share of full. 0400 and 0680: none.
+/// Returns the quantities of a message in the order of its words, SI units (two for wheel travel and for forward and
+/// yaw travel), or nullopt for other identifiers. 0401: pitch, pitch rate, roll, roll rate. 0402: left and right wheel
+/// speed, yaw rate, servo frames in s. 0403: left and right travel. 0404: forward and yaw travel. 0405: left and right
+/// torque. 0406: mode, gain schedule, voltages of interface and base battery. 0407: velocity and turn command in force,
+/// the latter as a share of full. 0400 and 0680: none.
 std::optional<std::array<std::optional<double>, 4>> decodeRmpValues(const CanFrame& frame, const RmpUnits& units = {});
 
-/// Motion command. Values are rounded and saturate at 1176 and 1024 counts; values that are not finite give 0.
+/// Returns the motion command. Values are rounded and saturate at 1176 and 1024 counts; non-finite values give 0.
 CanFrame makeRmpVelocity(double velocity, double turn_rate, const RmpUnits& units = {});
 
-/// Configuration commands; the message carries the present velocity command.
+/// Configuration commands; the message contains the current velocity command.
 enum class RmpConfiguration : std::uint16_t { OperatingMode = 0x10, ResetIntegrators = 0x32 };
 CanFrame makeRmpConfiguration(const CanFrame& velocity, RmpConfiguration command, std::uint16_t argument);
 

@@ -10,7 +10,7 @@
 
 namespace segway_drivers {
 
-/// Host time, ns, on whatever clock the transport reads.
+/// Host time, ns, on the clock of the transport.
 using TimeNs = std::int64_t;
 
 using Bytes = std::vector<std::uint8_t>;
@@ -30,12 +30,12 @@ struct ByteView {
   const std::uint8_t* end() const { return data + size; }
 };
 
-/// Little-endian and big-endian words. Require that the bytes exist.
+/// Read little-endian and big-endian words. The bytes must exist.
 std::uint16_t littleWord(const std::uint8_t* bytes);
 std::uint32_t littleWord32(const std::uint8_t* bytes);
 std::uint16_t bigWord(const std::uint8_t* bytes);
 std::uint32_t bigWord32(const std::uint8_t* bytes);
-/// IEEE 754 numbers by their bits.
+/// Read IEEE 754 numbers.
 float littleFloat(const std::uint8_t* bytes);
 double littleDouble(const std::uint8_t* bytes);
 float bigFloat(const std::uint8_t* bytes);
@@ -45,9 +45,9 @@ void appendLittle(Bytes& bytes, std::uint16_t word);
 void appendBig(Bytes& bytes, std::uint16_t word);
 void appendBig32(Bytes& bytes, std::uint32_t word);
 
-/// "02 00 1F": upper-case hexadecimal bytes separated by blanks.
+/// Returns "02 00 1F": upper-case hexadecimal bytes separated by blanks.
 std::string printHex(ByteView bytes);
-/// Inverse of printHex; blanks are optional. Returns nullopt for anything that is no hexadecimal byte.
+/// Inverse of printHex; blanks are optional. Returns nullopt for text other than hexadecimal bytes.
 std::optional<Bytes> parseHex(std::string_view text);
 
 }  // namespace segway_drivers

@@ -10,11 +10,11 @@
 
 namespace segway_drivers {
 
-/// Finding of a framing rule about the bytes at the head of a stream.
+/// Result of a framing rule for the bytes at the head of a stream.
 struct FrameProbe {
   enum class Kind {
     NoFrame,      ///< no frame begins here
-    Incomplete,   ///< a frame may begin here; `size` is its length where known, else 0
+    Incomplete,   ///< a frame may begin here; `size` is its length if known, otherwise 0
     Frame,        ///< a frame of `size` bytes with a correct checksum
     BadChecksum,  ///< a frame of `size` bytes with a wrong checksum
   };
@@ -22,7 +22,7 @@ struct FrameProbe {
   std::size_t size = 0;
 };
 
-/// When a chunk arrived: the time of its read, and the number of bytes that followed it in the same read.
+/// Arrival of a chunk: time of its read, and number of bytes that followed it in the same read.
 struct ChunkArrival {
   TimeNs time = 0;  ///< ns; 0: unknown
   std::size_t following = 0;
@@ -36,12 +36,12 @@ struct StreamFrame {
 };
 
 /// Splits a byte stream into frames, for chunks of any size. Owns one buffer of fixed size; never blocks, throws,
-/// allocates after construction, or reads a clock. After a wrong checksum or an impossible length the search resumes
-/// one byte further, so that a false start in garbage does not swallow the frame after it. The frames found depend on
-/// the bytes alone, unless expire() is called. Not thread-safe.
+/// allocates after construction, or reads a clock. After a wrong checksum or an impossible length the search resumes at
+/// the next byte, so that a false start does not hide the following frame. The frames depend only on the bytes unless
+/// expire() is called. Not thread-safe.
 class FrameStream {
  public:
-  /// Rule for the bytes at the head: `bytes` holds all that have arrived, at least one. Must not report Incomplete for
+  /// Rule for the bytes at the head: `bytes` are all that have arrived, at least one. Must not return Incomplete for
   /// `max_frame` bytes.
   using Rule = std::function<FrameProbe(ByteView bytes)>;
   using Sink = std::function<void(const StreamFrame& frame)>;
@@ -49,16 +49,16 @@ class FrameStream {
   /// `max_frame`: largest frame, bytes.
   FrameStream(std::size_t max_frame, Rule rule);
 
-  /// Line rate, bit/s, 10 bits a byte; 0: bytes take no time. Used for arrival times.
+  /// Sets the line rate, bit/s, 10 bits per byte, for arrival times; 0: bytes take no time.
   void setBaud(double baud);
-  /// Adds a chunk and calls `sink` for each frame that it completes.
+  /// Adds a chunk and calls `sink` for each completed frame.
   void feed(ByteView chunk, const ChunkArrival& arrival, const Sink& sink);
-  /// Gives up a frame that has been incomplete since before twice its transfer time plus 50 ms, and searches what
-  /// follows its first byte.
+  /// Discards a frame that has been incomplete for longer than twice its transfer time plus 50 ms, and searches from
+  /// its second byte.
   void expire(TimeNs now, const Sink& sink);
-  /// Searches what is left at the end of the stream: an incomplete frame is no frame.
+  /// Searches the remaining bytes at the end of the stream; an incomplete frame is no frame.
   void finish(const Sink& sink);
-  /// Forgets buffered bytes, as after a change of the line rate. They count as skipped.
+  /// Discards buffered bytes, as after a change of the line rate. They count as skipped.
   void clear();
 
   const DeviceCounters& counters() const { return counters_; }
@@ -66,7 +66,7 @@ class FrameStream {
  private:
   struct Read {
     std::uint64_t begin = 0, end = 0;  // stream offsets of the chunk
-    std::uint64_t read_end = 0;        // stream offset of the end of the read that the chunk is part of
+    std::uint64_t read_end = 0;        // stream offset of the end of the read of the chunk
     TimeNs time = 0;                   // arrival of the byte before `read_end`
   };
 
@@ -85,7 +85,7 @@ class FrameStream {
   std::array<Read, 64> reads_{};
   std::size_t read_count_ = 0;
   TimeNs head_since_ = 0;     // arrival of the byte at head_, for expire()
-  std::size_t expected_ = 0;  // length of the incomplete frame at head_, where known
+  std::size_t expected_ = 0;  // length of the incomplete frame at head_, if known
   DeviceCounters counters_;
 };
 

@@ -8,8 +8,8 @@
 
 namespace segway_drivers {
 
-/// Bytes of a command to a device, from words such as {"velocity", "0.5", "0"}. Throws UserError listing the commands
-/// of the kind, or the kinds.
+/// Returns the bytes of a command to a device from words such as {"velocity", "0.5", "0"}. Throws UserError with the
+/// commands of the kind, or the kinds.
 Bytes encodeCommand(const std::string& kind, const std::vector<std::string>& words);
 
 }  // namespace segway_drivers

@@ -17,10 +17,10 @@ namespace segway_drivers {
 struct DeviceRow {
   std::uint64_t offset = 0;  ///< of its first byte in the stream
   std::optional<TimeNs> stamp;
-  std::string cells;  ///< separated by commas; empty for absent values
+  std::string cells;  ///< separated by commas; empty for unknown values
 };
 
-/// Turns bytes of a recorded stream into rows of text, for chunks of any size. Not thread-safe.
+/// Converts bytes of a recorded stream to rows of text, for chunks of any size. Not thread-safe.
 class RowDecoder {
  public:
   using Sink = std::function<void(const DeviceRow& row)>;
@@ -30,15 +30,15 @@ class RowDecoder {
   virtual DeviceCounters counters() const = 0;
 };
 
-/// Where decoders of cameras write images.
+/// Output folder of images of camera decoders.
 struct ImageFolder {
   std::string folder;  ///< existing folder
   std::string stem;    ///< files are named STEM_FRAME_NAME.png
 };
 
-/// Names of the kinds of devices, in the order in which users list them.
+/// Returns the names of the kinds of devices in the order of documentation.
 const std::vector<std::string>& deviceKinds();
-/// Column names of a kind, separated by commas.
+/// Returns the column names of a kind, separated by commas.
 std::string rowColumns(const std::string& kind);
 /// Throws UserError for an unknown kind.
 std::unique_ptr<RowDecoder> makeRowDecoder(const std::string& kind, const Parameters& parameters,

@@ -19,7 +19,7 @@ struct StampResult {
   double skew_ppm = 0.0, sigma_us = 0.0;  ///< at the end
 };
 
-/// Runs the clock filter over a table. Throws UserError naming file and line.
+/// Runs the clock filter over a table. Throws UserError with file and line.
 StampResult stampFile(const StampJob& job);
 
 }  // namespace segway_drivers

@@ -8,15 +8,15 @@
 
 namespace segway_drivers {
 
-/// Converts times of the steady clock, on which drivers run, to real time. Follows a real clock that is slewed and
-/// reports its steps. Not thread-safe.
+/// Converts times of the steady clock of drivers to real time. Follows slewing of the real clock and reports its steps.
+/// Not thread-safe.
 class HostClock {
  public:
   /// `read`: real time minus steady time, ns.
   explicit HostClock(std::function<TimeNs()> read = realTimeOffset) : read_(std::move(read)), offset_(read_()) {}
 
   TimeNs toReal(TimeNs steady) const { return steady + offset_; }
-  /// To be called often. Returns the size of a step of the real clock, ns, beyond 1 ms; 0 if there was none.
+  /// Must be called often. Returns the size of a step of the real clock, ns, beyond 1 ms; otherwise 0.
   TimeNs follow();
 
  private:

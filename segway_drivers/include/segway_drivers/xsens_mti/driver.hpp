@@ -10,13 +10,13 @@
 namespace segway_drivers {
 
 /// Driver of an MTi with MTData or MTData2. Brings the device into its configuration state, reads identity, period,
-/// mode and settings back, writes what differs, and starts the measurement. A device that ignores the request but
-/// streams what can be decoded is used as it is.
+/// mode and settings back, writes differences, and starts the measurement. A device that ignores the request but
+/// streams decodable data is used without changes.
 class MtiDriver : public DriverCore {
  public:
   struct Options {
     MtiStream::Options stream;
-    int rate = 100;  ///< Hz, wished
+    int rate = 100;  ///< Hz, requested
   };
   explicit MtiDriver(const Options& options);
 
@@ -64,7 +64,7 @@ class MtiDriver : public DriverCore {
   PendingRequest request_;
   Phase phase_ = Phase::Find;
   std::size_t rate_ = 0;
-  std::optional<std::size_t> known_rate_;  // at which the device has answered
+  std::optional<std::size_t> known_rate_;  // rate at which the device has answered
   unsigned mode_ = 0, settings_ = 0;  // in force
   TimeNs now_ = 0, last_sample_ = 0;
   int ignored_ = 0, soft_restarts_ = 0;

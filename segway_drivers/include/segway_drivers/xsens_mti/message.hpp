@@ -31,12 +31,12 @@ enum class MtiMid : std::uint8_t {
   ErrorMode = 0xDA,
 };
 
-/// Message to the device: preamble, bus identifier, message identifier, length, `data`, checksum.
+/// Returns a message to the device: preamble, bus identifier, message identifier, length, `data`, checksum.
 Bytes makeMtiMessage(MtiMid mid, ByteView data = {});
 /// Framing rule of messages in both directions.
 FrameProbe probeMtiMessage(ByteView bytes);
 
-/// Parts of a whole message.
+/// Parts of a complete message.
 struct MtiMessage {
   std::uint8_t mid = 0;
   ByteView data;

@@ -12,7 +12,7 @@
 
 namespace segway_drivers {
 
-/// A sample with its place in the stream and in time.
+/// A sample with its position in the stream and its stamp.
 struct MtiStampedSample {
   MtiSample sample;
   std::uint64_t offset = 0;
@@ -33,7 +33,7 @@ class MtiStream {
   explicit MtiStream(const Options& options);
 
   std::function<void(const MtiStampedSample&)> on_sample;
-  /// A message that holds no measurements; valid during the call.
+  /// A message without measurements; valid during the call.
   std::function<void(const MtiMessage&)> on_reply;
 
   void feed(ByteView chunk, const ChunkArrival& arrival) { frames_.feed(chunk, arrival, sink_); }

@@ -34,7 +34,7 @@ double quantile(Values values, double share) {
 
 double distributionDistance(const Values& simulated, const Values& real) {
   if (simulated.empty() || real.empty()) return std::numeric_limits<double>::infinity();
-  // Along a line the earth goes by rank: the area between the two distribution functions.
+  // In 1D, the earth mover's distance is the area between the two distribution functions.
   Values a = simulated, b = real, all = simulated;
   all.insert(all.end(), real.begin(), real.end());
   for (Values* values : {&a, &b, &all}) std::sort(values->begin(), values->end());

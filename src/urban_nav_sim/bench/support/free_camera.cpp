@@ -11,7 +11,7 @@ namespace urban_nav_sim::bench {
 namespace {
 
 constexpr int kPixelSamples = 3;
-constexpr float kMiddle = 0.145F;  // what the mean of the lower two thirds becomes, linear
+constexpr float kMiddle = 0.145F;  // target mean of the lower two thirds, linear
 
 /// Filmic curve (Narkowicz 2015), then the gamma of screens.
 float toned(float light) {
@@ -39,7 +39,7 @@ cv::Mat photograph(const Tracer& tracer, const Sky& sky, const FreeCamera& camer
   render(Snapshot(tracer, t, t), sky, RayTable(camera.lens(kPixelSamples)), camera.place(), Colours::Rgb, picture);
   const cv::Mat fine(picture.height, picture.width, CV_32FC3, picture.radiance.data());
   cv::Mat light, image(camera.height, camera.width, CV_8UC3);
-  cv::resize(cv::min(fine, 4.0), light, image.size(), 0.0, 0.0, cv::INTER_AREA);  // the sun's disc would spread
+  cv::resize(cv::min(fine, 4.0), light, image.size(), 0.0, 0.0, cv::INTER_AREA);  // limits the spread of the solar disc
 
   const Eigen::Vector3f day = sky.day().sun + sky.day().sky,
                         balance = Eigen::Vector3f::Constant(day.y()).cwiseQuotient(day);

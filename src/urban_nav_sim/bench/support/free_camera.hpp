@@ -11,18 +11,18 @@
 
 namespace urban_nav_sim::bench {
 
-/// A pinhole that no robot carries, for pictures that people look at.
+/// A free pinhole camera, for pictures of documents.
 struct FreeCamera {
-  Eigen::Vector3d from, to;  ///< m, in `world`: where it is, and what is in the middle of its picture
+  Eigen::Vector3d from, to;  ///< m, in `world`: position, and point in the centre of the image
   double field = 1.0;        ///< rad from the left edge to the right one
   int width = 1600, height = 1000;
 
   urban_nav_core::Pose place() const;  ///< T_world_camera, level
-  /// With so many pixels in place of one, along each side.
+  /// Returns the lens with `finer` times the resolution.
   Lens lens(int finer = 1) const;
 };
 
-/// 8 bit, BGR: nine rays a pixel, exposed for the lower two thirds, bright parts pressed together instead of cut off.
+/// Renders 8 bit BGR with nine rays per pixel, exposed for the lower two thirds, with compressed highlights.
 cv::Mat photograph(const Tracer& tracer, const Sky& sky, const FreeCamera& camera, double t = 0.0);
 
 }  // namespace urban_nav_sim::bench

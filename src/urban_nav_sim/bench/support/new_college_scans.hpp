@@ -6,14 +6,14 @@
 
 namespace urban_nav_sim::bench {
 
-/// Turns of one laser in order of time; 181 beams each. No range (m) where it is not over zero: then the device gave an
-/// error code.
+/// Scans of one laser in order of time, with 181 beams each. Ranges (m) that are not positive are error codes of the
+/// device and omitted.
 struct Turns {
   std::vector<std::vector<double>> ranges, intensities;
 };
 
-/// The lasers' rows of a MOOS log packed by xz (Smith et al. 2009). `side`: "LEFT" or "RIGHT". Needs the program xz.
-/// Throws std::runtime_error where there is no such log, or no turn in it.
+/// Reads the laser rows of a MOOS log compressed by xz (Smith et al. 2009). `side`: "LEFT" or "RIGHT". Requires the
+/// program xz. Throws std::runtime_error without the log, or without scans.
 Turns newCollegeTurns(const std::string& path, const std::string& side);
 
 }  // namespace urban_nav_sim::bench

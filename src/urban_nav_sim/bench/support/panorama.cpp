@@ -12,7 +12,7 @@ constexpr double kHalfHeight = 0.8;  // radii: at the seams the images end at 0.
 constexpr double kDistance = 8.0;    // m
 constexpr double kFade = 12.0;       // px, from the side of an image to its full weight
 
-/// Where each pixel of the cylinder is in an image, and how much that counts.
+/// Position of each pixel of the cylinder in an image, and its weight.
 struct Mapped {
   cv::Mat u, v, weight;
 };

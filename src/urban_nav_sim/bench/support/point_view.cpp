@@ -11,12 +11,12 @@ namespace urban_nav_sim::bench {
 namespace {
 
 constexpr int kPointViewScale = 2;
-constexpr double kSize = 0.025;    // m, half the side of the square that a point is drawn as
+constexpr double kSize = 0.025;    // m, half the side of the square of a point
 constexpr float kDarkness = 1.5F;  // of edges
 const cv::Vec3b kBackground(36, 28, 24);
 
 struct Drawn {
-  cv::Mat depth, height, reflectance;  // m; the depth of what is nowhere is infinite
+  cv::Mat depth, height, reflectance;  // m; depth is infinite without a point
 };
 
 Drawn drawn(const std::vector<Return>& cloud, const FreeCamera& camera) {
@@ -43,7 +43,7 @@ Drawn drawn(const std::vector<Return>& cloud, const FreeCamera& camera) {
   return d;
 }
 
-/// Share of its light that a pixel keeps beside nearer neighbours.
+/// Returns the brightness factor of a pixel next to nearer ones.
 float lightAt(const cv::Mat& depth, int u, int v) {
   constexpr std::array<std::array<int, 2>, 8> kAround = {
       {{3, 0}, {-3, 0}, {0, 3}, {0, -3}, {2, 2}, {-2, 2}, {2, -2}, {-2, -2}}};

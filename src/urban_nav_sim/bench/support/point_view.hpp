@@ -15,8 +15,8 @@ struct Return {
   float reflectance = 0.0F;  ///< 0 ... 255
 };
 
-/// A cloud as a free camera sees it, 8 bit, BGR, on a dark ground: coloured by height (0 ... `top` m over z = 0), light
-/// where it reflects well, darker next to the edges of nearer surfaces (Boucheny 2009).
+/// Renders a cloud for a free camera, 8 bit BGR on a dark background: coloured by height (0 ... `top` m above z = 0),
+/// with brightness by reflectance, darker next to the edges of nearer surfaces (Boucheny 2009).
 cv::Mat drawCloud(const std::vector<Return>& cloud, const FreeCamera& camera, float top);
 
 }  // namespace urban_nav_sim::bench

@@ -9,7 +9,7 @@
 
 namespace urban_nav_sim::bench {
 
-/// Words that follow an option, `--duration 20`: all that these programs understand.
+/// Options with a value, `--duration 20`.
 class Options {
  public:
   Options(int argc, char** argv) : argc_(argc), argv_(argv) {}
@@ -21,13 +21,13 @@ class Options {
   char** argv_;
 };
 
-/// The route of that name. Throws std::invalid_argument if there is none.
+/// Returns the route of that name. Throws std::invalid_argument for an unknown name.
 Route makeRoute(const std::string& world, std::uint32_t seed, const std::string& name);
 
-/// A folder below URBAN_NAV_DATA; empty, with a word on stderr about what is left out, where it is not there.
+/// Returns a folder below URBAN_NAV_DATA; empty if missing, with a message on stderr.
 std::string realData(const std::string& folder);
 
-/// What main returns: prints the table, and writes it where `-o FILE` says.
+/// Prints the table and writes it to the file of `-o FILE`. Returns the exit status of main().
 int show(const urban_nav_core::testing::BenchTable& table, const Options& options);
 int complain(const std::exception& error);
 

@@ -18,7 +18,7 @@ namespace frames = urban_nav_core::frames;
 
 namespace {
 
-/// Six digits, so that names in alphabetical order are in order of time.
+/// Returns six digits, so that alphabetical order is the order of time.
 std::string toName(std::size_t number) {
   std::string name = std::to_string(number);
   return name.insert(0, 6 - std::min<std::size_t>(6, name.size()), '0');

@@ -15,8 +15,8 @@ constexpr double kTextured = 2.5;                // levels a pixel
 constexpr int kBurnt = 250;                      // levels
 constexpr int kFastThreshold = 20;               // grey levels
 constexpr double kFrame = 512 * 384;             // px
-constexpr std::size_t kEvery = 61;               // a prime: no column is left out
-constexpr double kBlack = 15.0, kWhite = 240.0;  // levels; noise is cut off there
+constexpr std::size_t kEvery = 61;               // a prime, so that all columns are sampled
+constexpr double kBlack = 15.0, kWhite = 240.0;  // levels beyond which noise is clipped
 
 cv::Mat computeGradient(const cv::Mat& image) {
   cv::Mat dx, dy, length;
@@ -33,7 +33,7 @@ double twoOctavesUp(const cv::Mat& levels) {
   return cv::mean(computeGradient(quarter))[0] / std::max(cv::mean(computeGradient(levels))[0], 1e-9);
 }
 
-/// Means over whole blocks, row by row.
+/// Returns the means of complete blocks, row by row.
 std::vector<double> averageBlocks(const cv::Mat& values) {
   std::vector<double> means;
   for (int v = 0; v + kBlock <= values.rows; v += kBlock) {

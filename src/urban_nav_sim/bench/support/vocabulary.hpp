@@ -7,15 +7,15 @@
 
 namespace urban_nav_sim::bench {
 
-/// Visual words: middles of clusters of SIFT descriptors (Lowe 2004), found by OpenCV's BOWKMeansTrainer.
+/// Visual words: cluster centres of SIFT descriptors (Lowe 2004), by BOWKMeansTrainer of OpenCV.
 class Vocabulary {
  public:
-  /// `descriptors`: a row each, at least as many as words. The same ones give the same words.
+  /// `descriptors`: one per row, at least as many as words. Deterministic.
   Vocabulary(const cv::Mat& descriptors, int words);
 
-  /// Of the 500 strongest features of an image, 8 bit, grey.
+  /// Returns the descriptors of the 500 strongest features of an 8 bit grey image.
   static cv::Mat describe(const cv::Mat& image);
-  /// The word nearest to each of these descriptors.
+  /// Counts the nearest words of these descriptors.
   Counts countWords(const cv::Mat& descriptors) const;
 
  private:

@@ -10,20 +10,20 @@
 
 namespace urban_nav_sim {
 
-/// What is not ideal about a sensor or its stamps. Not every sensor has every one.
+/// Defects of a sensor or its stamps. Each sensor has some of them.
 enum class Defect : std::uint8_t {
   Noise,       ///< from measurement to measurement
   Bias,        ///< constant or drifting
   Blur,        ///< smear by motion
   Vignetting,  ///< darker corners, imagers of unequal sensitivity
-  Exposure,    ///< automatic, with its lag; without: that of the first picture
-  Lens,        ///< stereo pictures as the imagers see them: distorted, rows not aligned
+  Exposure,    ///< automatic, with lag; without it, the exposure of the first image
+  Lens,        ///< raw stereo images: distorted, rows not aligned
   Edges,       ///< echoes from two surfaces mix
   Losses,      ///< weak echoes are lost
-  Steps,       ///< of what the device counts in
-  Offset,      ///< of lasers: ranges 35 mm too long, the most that the data sheet allows; of the IMU: large biases
-  Scale,       ///< constant scale errors, of the IMU with axes that are not square to each other
-  Delay,       ///< stamps that are late by a constant time
+  Steps,       ///< quantisation of the device
+  Offset,      ///< lasers: ranges 35 mm too long, the limit of the data sheet; IMU: large biases
+  Scale,       ///< constant scale errors, of the IMU with non-orthogonal axes
+  Delay,       ///< stamps with a constant delay
   Axes,        ///< x and y exchanged
   Degrees,     ///< rates in deg/s
   Ned,         ///< axes forward, right, down
@@ -31,13 +31,13 @@ enum class Defect : std::uint8_t {
   Tyres,       ///< radii and track other than nominal
   Slip,        ///< of wheels
   Multipath,   ///< echoes of satellites from walls
-  Gaps,        ///< no fix where too little sky is seen
-  Times,       ///< points of a sweep without times: all zero, the stamp that of the end
+  Gaps,        ///< no fix with too little visible sky
+  Times,       ///< points of a sweep without times (all zero), stamp of its end
   Jitter,      ///< of stamps
   Clock        ///< offset and skew of the device's clock, which drivers usually correct
 };
 
-/// The defects of all sensors, each to be switched by itself.
+/// The defects of all sensors, switched individually.
 class Defects {
  public:
   /// Defects that are on by default: all but Lens, Offset, Scale, Delay, Axes, Degrees, Ned, Gravity, Times
@@ -45,9 +45,8 @@ class Defects {
   Defects();
 
   bool has(Sensor sensor, Defect defect) const { return on_.count({sensor, defect}) != 0; }
-  /// `word`: SENSOR:DEFECT as on the command line, `all` standing for each sensor that has the defect, or for each
-  /// defect of the sensor that is usually there. Throw UserError for what there is not, naming what there is; `where`:
-  /// the option.
+  /// `word`: SENSOR:DEFECT as on the command line; `all`: each sensor with the defect, or each default defect of the
+  /// sensor. Throw UserError for unknown names, listing the known ones; `where`: the option.
   void switchOn(const std::string& word, const std::string& where = "--with");
   void switchOff(const std::string& word, const std::string& where = "--without");
 
@@ -55,7 +54,7 @@ class Defects {
   std::set<std::pair<Sensor, Defect>> on_;
 };
 
-/// For --help: a line a sensor.
+/// Returns a line per sensor for --help.
 std::string defectHelp();
 
 }  // namespace urban_nav_sim

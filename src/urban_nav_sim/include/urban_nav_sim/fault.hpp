@@ -9,26 +9,26 @@
 
 namespace urban_nav_sim {
 
-/// What can go wrong with what a sensor sends.
+/// Faults of the data of a sensor.
 enum class FaultKind : std::uint8_t {
   Drop,     ///< messages are missing; value: their share, 0...1 (default 0.3)
-  Freeze,   ///< the last measurement before the fault, or else the first, is repeated under new stamps
-  Swap,     ///< left and right exchanged (stereo, lasers); others: as freeze
-  Corrupt,  ///< rubbish in a share of the rows, beams or numbers; value: that share, 0...1 (default 0.3)
-  Jump,     ///< stamps are later by value in s (default 10; may be below zero)
-  Unplug,   ///< nothing comes
-  Nan,      ///< numbers are NaN; pictures, which have none, are black
-  Knock,    ///< stereo alone: the right camera is turned about its y axis by value in deg (default 0.2)
-  Drift,    ///< stamps become later, evenly over the duration, by value in s (default 0.1), and stay so
-  Scale,    ///< stereo alone, the whole session: the baseline of camera_info is value times the true one (default 1.01)
-  Rain,     ///< stereo alone: streaks of rain, other ones in each picture; value: share of the pixels (default 0.05)
-  Dark      ///< stereo alone: pictures of value times the brightness (default 0.05), with the noise of the sensor
+  Freeze,   ///< the last measurement before the fault, or the first one, is repeated with new stamps
+  Swap,     ///< left and right exchanged (stereo, lasers); other sensors: as freeze
+  Corrupt,  ///< random data in a share of the rows, beams or numbers; value: that share, 0...1 (default 0.3)
+  Jump,     ///< stamps are later by value in s (default 10; may be negative)
+  Unplug,   ///< no data
+  Nan,      ///< numbers are NaN; images are black
+  Knock,    ///< stereo only: the right camera is rotated about its y axis by value in deg (default 0.2)
+  Drift,    ///< stamps are delayed linearly over the duration, up to value in s (default 0.1), then constant
+  Scale,    ///< stereo only, entire session: the baseline of camera_info is value times the true one (default 1.01)
+  Rain,     ///< stereo only: streaks of rain, different in each image; value: share of the pixels (default 0.05)
+  Dark      ///< stereo only: images of value times the brightness (default 0.05), with the noise of the sensor
 };
 /// "drop", "freeze", "swap", "corrupt", "jump", "unplug", "nan", "knock", "drift", "scale", "rain", "dark".
 const char* toString(FaultKind kind);
 std::string faultList();
 
-/// A fault of one sensor for some time, s since the session began. A duration of 0 lasts to the end.
+/// A fault of one sensor during a time interval, s since the begin of the session. A duration of 0 lasts to the end.
 struct Fault {
   FaultKind kind = FaultKind::Drop;
   Sensor sensor = Sensor::Stereo;
@@ -40,8 +40,8 @@ struct Fault {
   }
 };
 
-/// "KIND:SENSOR:START_S:DURATION_S[:VALUE]"; sensor "clock": that of the stereo camera.
-/// Throws UserError that says what is wrong and what is allowed; `option`: where the text stood.
+/// "KIND:SENSOR:START_S:DURATION_S[:VALUE]"; sensor "clock": that of the stereo camera. Throws UserError with the valid
+/// values; `option`: source of the text.
 Fault parseFault(const std::string& text, const std::string& option = "--fault");
 
 }  // namespace urban_nav_sim

@@ -9,7 +9,7 @@ namespace urban_nav_sim {
 struct LidarModel {
   enum class Pattern {
     Rings,   ///< spinning sensor, each laser draws a ring (Velodyne)
-    Rosette  ///< two rotating prisms, forward-looking, never the same curve twice (Livox)
+    Rosette  ///< two rotating prisms, forward-looking, non-repeating curve (Livox)
   };
   static constexpr int kFewestRings = 16, kMostRings = 128, kRosetteLines = 6;
 
@@ -17,7 +17,7 @@ struct LidarModel {
   int rings = 64;  ///< lasers; of a rosette kRosetteLines
 };
 
-/// Reads the value of `--lidar`: the number of rings or `livox`. Throws UserError; `where`: the option.
+/// Parses the value of `--lidar`: the number of rings or `livox`. Throws UserError; `where`: the option.
 LidarModel parseLidarModel(const std::string& word, const std::string& where);
 
 }  // namespace urban_nav_sim

@@ -15,13 +15,13 @@ namespace urban_nav_sim {
 
 enum class Side : std::uint8_t { Left, Right };
 
-/// A stereo pair, grey, 8 bit. An image that is missing is empty.
+/// A stereo pair, grey, 8 bit. A missing image is empty.
 struct StereoMeasurement {
   urban_nav_core::StampNs stamp = 0;
   cv::Mat left, right;
 };
 
-/// What one camera of the Ladybug saw, BGR, 8 bit.
+/// Image of one camera of the Ladybug, BGR, 8 bit.
 struct LadybugMeasurement {
   urban_nav_core::StampNs stamp = 0;
   int camera = 0;  ///< 0 forward, then clockwise seen from above
@@ -33,7 +33,7 @@ struct LaserMeasurement {
   urban_nav_core::PlanarScan scan;
 };
 
-/// A sweep of the 3D LiDAR; beams without return are not in it.
+/// A sweep of the 3D LiDAR, without beams that have no return.
 struct LidarMeasurement {
   urban_nav_core::StampNs stamp = 0;  ///< end of the sweep
   urban_nav_core::Sweep sweep;
@@ -56,7 +56,7 @@ struct GpsMeasurement {
   urban_nav_core::StampNs stamp = 0;
   bool has_fix = true;
   double latitude = 0.0, longitude = 0.0, altitude = 0.0;  ///< deg, deg, m over the ellipsoid
-  Eigen::Vector3d sigma = Eigen::Vector3d::Ones();         ///< as the receiver states it: east, north, up, m
+  Eigen::Vector3d sigma = Eigen::Vector3d::Ones();         ///< as stated by the receiver: east, north, up, m
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< east, north, up, m/s
 };
 
@@ -65,13 +65,13 @@ struct TruthMeasurement {
   urban_nav_core::Pose T_world_base;
 };
 
-/// What the pixels of a camera or the beams of a laser truly met, taken with the measurement of the same stamp. Faults
-/// leave it alone.
+/// True depth and class of the pixels of a camera or the beams of a laser, for the measurement of the same stamp. Not
+/// affected by faults.
 struct ViewTruth {
   urban_nav_core::StampNs stamp = 0;
   std::string frame;  ///< "laser_left", "stereo_right_optical_frame", ...
-  cv::Mat depth;  ///< CV_32F, m along the camera's axis; of a laser a row of beams, m along each; of a 3D LiDAR a row
-                  ///< for each ring, from ring 0 on, and a column for each firing; infinite for the sky
+  cv::Mat depth;  ///< CV_32F, m along the camera axis; of a laser a row of beams, m along each; of a 3D LiDAR a row per
+                  ///< ring, from ring 0 on, and a column per firing; infinite for the sky
   cv::Mat surface_class;  ///< CV_8U, as in cloud.ply
 };
 

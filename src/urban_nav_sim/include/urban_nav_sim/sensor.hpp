@@ -7,17 +7,17 @@
 
 namespace urban_nav_sim {
 
-/// What the robot carries, as the command line names it.
+/// Sensors of the robot, with their names on the command line.
 enum class Sensor : std::uint8_t { Stereo, Ladybug, Lasers, Imu, Wheels, Gps, Lidar3d };
 inline constexpr std::array<Sensor, 7> kAllSensors = {Sensor::Stereo, Sensor::Ladybug, Sensor::Lasers, Sensor::Imu,
                                                       Sensor::Wheels, Sensor::Gps,     Sensor::Lidar3d};
-/// The sensors of the paper's robot, the default; a 3D LiDAR comes only on request.
+/// The sensors of the robot of the paper, the default; a 3D LiDAR only on request.
 inline constexpr std::array<Sensor, 6> kDefaultSensors = {Sensor::Stereo, Sensor::Ladybug, Sensor::Lasers,
                                                           Sensor::Imu,    Sensor::Wheels,  Sensor::Gps};
 
 /// "stereo", "ladybug", "lasers", "imu", "wheels", "gps", "lidar3d".
 const char* toString(Sensor sensor);
-/// Throws UserError that names what there is; `where`: its option.
+/// Throws UserError listing the sensors; `where`: the option.
 Sensor parseSensor(const std::string& word, const std::string& where);
 std::string sensorList();
 

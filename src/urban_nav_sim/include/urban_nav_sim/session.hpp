@@ -17,7 +17,7 @@
 
 namespace urban_nav_sim {
 
-/// What is driven. Equal options give equal bytes, whatever the number of threads.
+/// Options of a session. Equal options give equal bytes for any number of threads.
 struct SessionOptions {
   std::string world = "quad", route = "loops";
   std::uint32_t seed = 1;
@@ -26,17 +26,17 @@ struct SessionOptions {
   std::set<Sensor> sensors{kDefaultSensors.begin(), kDefaultSensors.end()};
   LidarModel lidar;  ///< if lidar3d is among the sensors
   Defects defects;
-  std::set<Sensor> views;  ///< of these cameras and lasers, what each pixel and beam truly met too (ViewTruth)
+  std::set<Sensor> views;  ///< cameras and lasers for which the true depth and class are also output (ViewTruth)
   std::vector<Fault> faults;
-  std::string where = "--";  ///< what stands before the name of an option in an error
+  std::string where = "--";  ///< prefix of option names in errors
 };
 
-/// Throws UserError where there is no such world or route, or no view of a sensor, naming those there are: what the
-/// constructor of Session does first, without the work.
+/// Throws UserError for an unknown world or route, or a sensor without views, listing the valid ones. Same checks as
+/// the constructor of Session, without its work.
 void checkPlace(const SessionOptions& options);
 
-/// A session of the simulated robot. Its constructor throws as checkPlace does. Not thread-safe; works on as many
-/// threads as urban_nav_core::ThreadLimit allows.
+/// A session of the simulated robot. Its constructor throws the errors of checkPlace(). Not thread-safe; uses as many
+/// threads as urban_nav_core::ThreadLimit permits.
 class Session {
  public:
   explicit Session(const SessionOptions& options);
@@ -46,27 +46,27 @@ class Session {
 
   struct Arrival {
     Measurement measurement;
-    urban_nav_core::StampNs taken = 0;  ///< when it was truly taken, whatever its stamp says
+    urban_nav_core::StampNs taken = 0;  ///< true time of measurement, independent of its stamp
   };
-  /// The next one, in the order in which they were taken; empty at the end.
+  /// Returns the next measurement, in the order of true times; nullopt at the end.
   std::optional<Arrival> next();
-  /// Where the robot truly was at a time that is not a fault's.
+  /// Returns the true pose of the robot at a true time.
   urban_nav_core::Pose truth(urban_nav_core::StampNs taken) const;
 
-  /// True stamp of t = 0.
+  /// Returns the true stamp of t = 0.
   urban_nav_core::StampNs begin() const;
   double duration() const;
-  /// Stereo pairs, to show how far it is.
+  /// Returns the number of stereo pairs, for progress.
   std::int64_t frames() const;
 
-  /// T_base_sensor by frame. Raw stereo images (defect Lens) have the frames of the cameras as they are mounted.
+  /// Returns T_base_sensor by frame. Raw stereo images (defect Lens) have the frames of the mounted cameras.
   std::map<std::string, urban_nav_core::Pose> places() const;
   urban_nav_core::CameraInfo stereoInfo(Side side) const;
   urban_nav_core::CameraInfo ladybugInfo(int camera) const;  ///< 0 ... 4
 
-  /// trajectory.tum, revisits.csv, closures_true.csv, closures_false.csv (if `false_closures` is not zero: their per
-  /// cent of the true ones), cloud.ply (docs/files.md), clocks.csv (`sensor,offset_s,skew,jitter_s`: by how much stamps
-  /// are off) into a folder that exists. What sensors there are does not matter.
+  /// Writes trajectory.tum, revisits.csv, closures_true.csv, closures_false.csv (`false_closures` per cent of the true
+  /// ones, if not zero), cloud.ply (docs/files.md) and clocks.csv (`sensor,offset_s,skew,jitter_s`: errors of stamps)
+  /// into an existing folder. Independent of the selected sensors.
   void writeTruth(const std::string& folder, double false_closures) const;
 
  private:
@@ -74,7 +74,7 @@ class Session {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// For --help: each world with its routes, a line a route.
+/// Returns each world with its routes, a line per route, for --help.
 std::string worldHelp();
 
 }  // namespace urban_nav_sim

@@ -12,11 +12,10 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr int kRaysOfPixel = 4;                   // through a pixel
-constexpr int kTogether = kLanes / kRaysOfPixel;  // pixels of a packet
+constexpr int kRaysOfPixel = 4;                   // per pixel
+constexpr int kTogether = kLanes / kRaysOfPixel;  // pixels per packet
 
-/// Rooks that do not take each other, and not on a diagonal either: any edge, however it lies, goes past them one by
-/// one.
+/// Sample pattern of non-attacking queens: an edge of any direction passes the samples one at a time.
 constexpr std::array<int, kRaysOfPixel> kRow = {2, 0, 3, 1};
 float along(int i) { return (static_cast<float>(i) + 0.5F) / kRaysOfPixel - 0.5F; }
 
@@ -51,7 +50,7 @@ class Smoother {
     int u = 0;
     Edge edge = Edge::None;
   };
-  /// Rays of a pixel that met one surface.
+  /// Rays of a pixel that hit the same surface.
   struct Share {
     int first = 0;  ///< lane
     std::uint32_t lanes = 0;
@@ -107,14 +106,14 @@ class Smoother {
     return shares;
   }
 
-  /// Is it the surface that the middle of the pixel has met?
+  /// Returns whether it is the surface hit by the centre of the pixel.
   bool isMiddle(const Eye::Seen& seen, const Share& share, int u, int v) const {
     const std::size_t pixel = picture_.at(u, v);
     return areSame(tracer_, traces_.met[pixel], {seen.hits.facet[share.first], seen.hits.mover[share.first]});
   }
 
-  /// The mean over the shares. `examined`: lanes of which it is known whether the sun shines there; of a share that has
-  /// none the light is in the picture already.
+  /// Writes the mean over the shares. `examined`: lanes with known sun visibility; for a share without any, the light
+  /// is already in the picture.
   void put(const Packet& packet, const Eye::Seen& seen, const Shares& shares, std::uint32_t examined,
            std::size_t pixel) const {
     const auto channels = static_cast<std::size_t>(picture_.channels);

@@ -8,10 +8,10 @@
 
 namespace urban_nav_sim {
 
-/// Pixels through which the edge of a surface or of its shadow may go: of the colour that several rays through each of
-/// them see. Looks are filtered over the pixel, edges are not: without this they would jump from pixel to pixel, and
-/// with them whatever tracks their corners. Each surface is looked at once a pixel, its share is that of the rays that
-/// meet it. Same bytes whatever the number of threads.
+/// Antialiases pixels that may contain the edge of a surface or of its shadow, with several rays each. Appearances are
+/// already filtered over the pixel, edges are not: they would move in steps of a pixel, which disturbs tracking of
+/// their corners. Each surface is evaluated once per pixel, weighted by its share of the rays. The result does not
+/// depend on the number of threads.
 void smoothEdges(const Tracer& tracer, const Eye& eye, const Traces& traces, Picture& picture);
 
 }  // namespace urban_nav_sim

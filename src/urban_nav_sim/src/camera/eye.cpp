@@ -10,7 +10,7 @@ using Eigen::Vector3f;
 namespace {
 
 constexpr float kFarDepth = 5000.0F;    // m of depth
-constexpr float kShadowOffset = 2e-3F;  // m off the surface, so that it does not shade itself
+constexpr float kShadowOffset = 2e-3F;  // m off the surface, against self-shadowing
 
 /// Spectral weights of a grey sensor: silicon under glass, most sensitive to green and red.
 const Vector3f kGrey(0.32F, 0.46F, 0.22F);

@@ -26,7 +26,7 @@ Imager::Imager(const Lens& lens, const Settings& settings, const Noise& noise)
 
 void Imager::developRow(const Picture& picture, const std::vector<float>& radiance, int v, float levels, float gain,
                         const Noise& noise, std::uint8_t* out) const {
-  constexpr float kBrightest = 40.0F;  // what is brighter than that would only make rounding worse
+  constexpr float kBrightest = 40.0F;  // larger values would only increase rounding errors
   const int channels = picture.channels, width = picture.width * channels;
   const auto side = static_cast<float>(std::exp(-0.5 / (settings_.spread * settings_.spread)));
   const float a = side / (1.0F + 2.0F * side), b = 1.0F / (1.0F + 2.0F * side);
@@ -34,7 +34,7 @@ void Imager::developRow(const Picture& picture, const std::vector<float>& radian
     return &radiance[picture.at(0, std::clamp(y, 0, picture.height - 1)) * static_cast<std::size_t>(channels)];
   };
   const float *above = row(v - 1), *here = row(v), *below = row(v + 1);
-  // A margin of one pixel on each side, so that the spread along the row needs no cases.
+  // A margin of one pixel on each side, to avoid special cases of the spread along the row.
   std::vector<float> sums(static_cast<std::size_t>(width + 2 * channels));
   float* sum = sums.data() + channels;
   for (int i = 0; i < width; ++i) sum[i] = std::min(a * (above[i] + below[i]) + b * here[i], kBrightest);

@@ -13,18 +13,19 @@
 
 namespace urban_nav_sim {
 
-/// What makes grey levels of light: smear of the motion, spread of a point over its neighbours, vignetting, noise, 8
-/// bits. Keeps buffers, so one thread at a time; uses several inside. Same bytes whatever their number.
+/// Converts light to grey levels: motion blur, point spread, vignetting, noise, 8 bits. Not thread-safe, since it keeps
+/// buffers; uses several threads, without effect on the result.
 class Imager {
  public:
   struct Settings {
-    double vignetting = 0.30;  ///< share of light that is lost in the corners
-    double spread = 0.44;      ///< px, sigma of the point spread beside what looks are filtered by (look/tile.cpp)
+    double vignetting = 0.30;  ///< share of light lost in the corners
+    double spread =
+        0.44;  ///< px, sigma of the point spread in addition to the filter of appearances (materials/tile.cpp)
     double read_noise = 0.40;  ///< grey levels without gain
     /// Levels^2 per level without gain. Not from a data sheet: with it and the above, frames have about the noise of
     /// real ones (bench/realism).
     double shot_noise = 0.0033;
-    double sensitivity = 1.0;                                 ///< of this imager beside the others of its head
+    double sensitivity = 1.0;                                 ///< relative to the other imagers of the head
     Eigen::Vector3f white_balance = Eigen::Vector3f::Ones();  ///< factors of red, green, blue
     double gamma = 1.0;                                       ///< 255 (level / 255)^gamma
     bool blurs = true, is_noisy = true;
@@ -32,7 +33,7 @@ class Imager {
   Imager(const Lens& lens, const Settings& settings, const Noise& noise);
 
   const RayTable& rays() const { return rays_; }
-  /// 8 bit, grey or BGR. `levels`: grey levels for a radiance of 1; `number`: of the frame, for its noise.
+  /// Returns an 8 bit image, grey or BGR. `levels`: grey levels for a radiance of 1; `number`: of the frame, for noise.
   cv::Mat develop(const Picture& picture, const CameraMotion& motion, const Exposure& exposure, double levels,
                   std::uint64_t number);
 

@@ -11,10 +11,10 @@
 namespace urban_nav_sim {
 namespace {
 
-constexpr float kSharp = 0.3F;     // px: shorter smears drown in the point spread
+constexpr float kSharp = 0.3F;     // px: shorter blur is negligible against the point spread
 constexpr float kLongest = 24.0F;  // px
 
-/// Bilinear, clamped at the border; adds weight * value to `sum`.
+/// Adds weight * value to `sum`, bilinear and clamped at the border.
 void addSample(const Picture& picture, float u, float v, float weight, std::array<float, 3>& sum) {
   u = std::clamp(u, 0.0F, static_cast<float>(picture.width - 1) - 1e-3F);
   v = std::clamp(v, 0.0F, static_cast<float>(picture.height - 1) - 1e-3F);
@@ -43,7 +43,7 @@ Eigen::Vector2f flowAt(const RayTable& rays, int u, int v, float depth, const Ca
   const Eigen::Vector2f& at = rays.at(u, v);
   const Eigen::Vector3f velocity = motion.velocity.cast<float>(), rate = motion.rate.cast<float>();
   const float x = at.x(), y = at.y(), near = 1.0F / depth;
-  // Longuet-Higgins and Prazdny 1980, of a camera that moves in a world that stands.
+  // Longuet-Higgins and Prazdny 1980, for a moving camera in a static world.
   const float turn = rate.x() * y - rate.y() * x;
   const Eigen::Vector2f ideal(-(velocity.x() - x * velocity.z()) * near - (rate.y() - rate.z() * y) + x * turn,
                               -(velocity.y() - y * velocity.z()) * near - (rate.z() * x - rate.x()) + y * turn);

@@ -8,11 +8,11 @@
 
 namespace urban_nav_sim {
 
-/// Where each pixel of a lens looks: (x, y, 1) in camera axes, so that distances along it are depths. Made once for a
-/// lens. Immutable, so thread-safe.
+/// Ray of each pixel of a lens: (x, y, 1) in camera axes, so that distances along it are depths. Immutable, hence
+/// thread-safe.
 class RayTable {
  public:
-  /// Throws UserError if some pixel of the image sees nothing.
+  /// Throws UserError if a pixel of the image has no ray.
   explicit RayTable(const Lens& lens);
 
   int width() const { return width_; }
@@ -21,7 +21,7 @@ class RayTable {
   const Eigen::Vector2f& at(int u, int v) const {
     return ideal_[static_cast<std::size_t>(v) * stride_ + static_cast<std::size_t>(u)];
   }
-  /// The change to the pixel on the right, and to the one below; the pixel lies in the image.
+  /// Return the differences to the pixel on the right, and below. Require a pixel within the image.
   Eigen::Vector2f right(int u, int v) const { return at(u + 1, v) - at(u, v); }
   Eigen::Vector2f down(int u, int v) const { return at(u, v + 1) - at(u, v); }
 

@@ -15,7 +15,7 @@ namespace {
 constexpr int kBlock = 4;  // a packet is a square of pixels
 static_assert(kBlock * kBlock == kLanes, "a packet is a square of pixels");
 
-/// One ray through the middle of each pixel of the square whose upper left one is (u0, v0).
+/// Traces one ray through the centre of each pixel of the square with upper left pixel (u0, v0).
 void renderBlock(const Eye& eye, int u0, int v0, Picture& picture, Traces& traces) {
   Packet packet;
   std::array<std::array<int, 2>, kLanes> pixels;

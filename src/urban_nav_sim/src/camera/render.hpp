@@ -14,11 +14,11 @@ namespace urban_nav_sim {
 
 enum class Colours { Grey, Rgb };
 
-/// The light that reaches each pixel, before lens and sensor spoil it. Row by row.
+/// Radiance of each pixel, without effects of lens and sensor. Row by row.
 struct Picture {
   int width = 0, height = 0;
   int channels = 1;                         ///< 1 grey, 3 red, green, blue
-  std::vector<float> radiance;              ///< linear, `channels` for each pixel; 1 = a white sheet in the sun
+  std::vector<float> radiance;              ///< linear, `channels` per pixel; 1 = a white sheet in the sun
   std::vector<float> depth;                 ///< m along the optical axis; infinite for the sky
   std::vector<std::uint8_t> surface_class;  ///< SurfaceClass; Other for the sky
 
@@ -27,10 +27,9 @@ struct Picture {
   }
 };
 
-/// What a camera sees from `T_world_camera` at the time of the snapshot: a ray through the middle of each pixel, whose
-/// looks are filtered over it, and several where an edge goes through (edges.hpp). Depth and class are those of the
-/// middle. `picture` is made to fit; given again, it is not allocated again. The same bytes whatever the number of
-/// threads.
+/// Renders the view from `T_world_camera` at the time of the snapshot: one ray through the centre of each pixel, with
+/// appearance filtered over the pixel, and several rays at edges (edges.hpp). Depth and class are those of the centre.
+/// `picture` is resized, and its memory reused. The result does not depend on the number of threads.
 void render(const Snapshot& snapshot, const Sky& sky, const RayTable& rays, const urban_nav_core::Pose& T_world_camera,
             Colours colours, Picture& picture);
 

@@ -65,7 +65,7 @@ std::array<Camera, 5> ladybug() {
   R_forward_optical << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   std::array<Camera, 5> cameras;
   for (int i = 0; i < 5; ++i) {
-    const double focal = 240.0 * (1.0 + 0.004 * ((i * 3) % 5 - 2));  // no two lenses of a head are alike
+    const double focal = 240.0 * (1.0 + 0.004 * ((i * 3) % 5 - 2));  // the lenses of a head differ
     Camera& camera = cameras[static_cast<std::size_t>(i)];
     camera.lens = {384, 512, focal, focal, 191.5 + 1.7 * (i - 2), 255.5 - 1.1 * ((i * 2) % 5 - 2), {-0.12, 0.012}};
     const Eigen::Quaterniond yaw(Eigen::AngleAxisd(-2.0 * M_PI / 5.0 * i, Eigen::Vector3d::UnitZ()));

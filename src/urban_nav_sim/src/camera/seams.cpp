@@ -68,7 +68,7 @@ Edge Seams::at(int u, int v) const {
   const unsigned all = own | own >> kLowerLeft | own >> kBelow | own >> kLowerRight | pairs(u - 1, v) >> kRight |
                        pairs(u + 1, v - 1) >> kLowerLeft | pairs(u, v - 1) >> kBelow |
                        pairs(u - 1, v - 1) >> kLowerRight;
-  // The bits of other pairs lie above the two that are asked for.
+  // The bits of other pairs are above the two requested ones.
   if ((all & kBits & kShadow) != 0) return Edge::OfShadow;
   return (all & kSurface) != 0 ? Edge::OfSurface : Edge::None;
 }

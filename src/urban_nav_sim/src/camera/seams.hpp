@@ -8,17 +8,17 @@
 
 namespace urban_nav_sim {
 
-/// What a ray has met.
+/// Hit of a ray.
 struct Met {
   std::uint32_t facet = kNothing;  ///< index of Tracer::facets(), or kNothing
   std::uint32_t mover = kNothing;  ///< of World::movers, or kNothing
 };
 
-/// Are they one surface? Facets of one plane are, or of a gentle bend, and so are leaves of a tree, or a pixel of them
-/// would be looked at eight times.
+/// Returns whether two hits are on the same surface: facets of one plane or of a smooth bend. Leaves of a tree count as
+/// the same surface; otherwise each of their pixels would be sampled repeatedly.
 bool areSame(const Tracer& tracer, const Met& a, const Met& b);
 
-/// What the ray through the middle of each pixel met, row by row.
+/// Hits of the rays through the centres of the pixels, row by row.
 struct Traces {
   std::vector<Met> met;
   std::vector<std::uint8_t> sunlit;
@@ -26,12 +26,12 @@ struct Traces {
 
 enum class Edge { None, OfSurface, OfShadow };
 
-/// Where pixels side by side see something else. Each pair is looked at once.
+/// Discontinuities between neighbouring pixels. Each pair is evaluated once.
 class Seams {
  public:
   Seams(const Tracer& tracer, const Traces& traces, int width, int height);
 
-  /// What may go through a pixel, as the eight about it say; a shadow on a surface before the surface's own edge.
+  /// Returns the kind of edge that may pass through a pixel, from its eight neighbours; shadow edges take precedence.
   Edge at(int u, int v) const;
 
  private:
@@ -44,7 +44,7 @@ class Seams {
 
   int width_, height_;
   std::vector<std::uint8_t>
-      pairs_;  ///< of each pixel with those to the right, lower left, below and lower right: two bits each
+      pairs_;  ///< each pixel with its right, lower left, lower and lower right neighbour: two bits each
 };
 
 }  // namespace urban_nav_sim

@@ -11,7 +11,7 @@ using Eigen::Vector3f;
 
 constexpr float kVisibility = 3000.0F;  // m to 1/e of the contrast: a clear day over a town
 
-/// Leaves stand at all angles around that of the card they are painted on, and light goes through them.
+/// Returns the sunlight on a point; leaves have random angles around that of their card, and transmit light.
 float sunOn(const SurfacePoint& point, const Sky& sky) {
   const float cosine = point.normal.dot(sky.day().to_sun);
   if (point.surface_class == SurfaceClass::Foliage) return 0.30F + 0.45F * std::abs(cosine);
@@ -28,7 +28,7 @@ Vector3f shade(const SurfacePoint& point, const Appearance& look, const Vector3f
   if (sunlit > 0.0F) light += sunlit * sunOn(point, sky) * sky.day().sun;
   Vector3f scattered = look.albedo.cwiseProduct(light);
   if (!(look.gloss > 0.0F)) return scattered;
-  // Schlick 1994, with the gloss as what is mirrored head on.
+  // Schlick 1994, with the gloss as the reflectance at normal incidence.
   const float cosine = std::clamp(-direction.dot(point.normal), 0.0F, 1.0F), edge = 1.0F - cosine;
   const float edge2 = edge * edge;
   const float share = look.gloss + (1.0F - look.gloss) * std::min(1.0F, 3.0F * look.gloss) * edge2 * edge2 * edge;

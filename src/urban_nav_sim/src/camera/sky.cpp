@@ -21,7 +21,7 @@ float smooth(float low, float high, float x) {
   return t * t * (3.0F - 2.0F * t);
 }
 
-/// Value noise on the whole numbers, 0 ... 1.
+/// Returns value noise on the integer lattice, 0 ... 1.
 float lattice(const Noise& noise, const Vector2f& at) {
   const float fx = std::floor(at.x()), fy = std::floor(at.y());
   const float u = smooth(0.0F, 1.0F, at.x() - fx), v = smooth(0.0F, 1.0F, at.y() - fy);
@@ -35,7 +35,7 @@ float lattice(const Noise& noise, const Vector2f& at) {
   return (1.0F - v) * above + v * below;
 }
 
-/// Six octaves, 0 ... 1; those finer than `resolution` fade to their mean, which is what a pixel sees of them.
+/// Returns noise of six octaves, 0 ... 1; those finer than `resolution` fade to their mean over a pixel.
 float fractal(const Noise& noise, Vector2f at, float resolution) {
   float sum = 0.0F, weight = 0.5F, total = 0.0F, size = 1.0F;
   for (std::uint64_t octave = 0; octave < 6; ++octave) {
@@ -83,11 +83,12 @@ Vector3f Sky::evaluate(const Vector3f& direction, std::uint64_t seed) const {
   const float shape = fractal(noise, at, resolution);
   const float limit = 0.78F - 0.56F * day_.clouds;  // the noise has median 0.5
   const float cover = smooth(limit - 0.03F, limit + 0.09F, shape);
-  const float thick = smooth(limit + 0.02F, limit + 0.30F, shape);  // dark from below; rims let the sun through
+  const float thick = smooth(limit + 0.02F, limit + 0.30F, shape);  // dark from below, with translucent rims
   const float relief = fractal(noise.of("relief"), 3.0F * at, 3.0F * resolution) - 0.5F;
   const Vector3f lit = 0.62F * day_.sun + 1.2F * day_.sky;
   const Vector3f cloud = lit * (1.0F - 0.55F * thick + 0.25F * relief) + 0.3F * glow;
-  const float share = cover * (0.35F + 0.65F * smooth(0.0F, 0.12F, z));  // the far rim of the layer is lost in haze
+  const float share =
+      cover * (0.35F + 0.65F * smooth(0.0F, 0.12F, z));  // the distant part of the layer fades into haze
   return (1.0F - share) * (blue + glow) + share * cloud;
 }
 

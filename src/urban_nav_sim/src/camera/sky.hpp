@@ -9,23 +9,23 @@
 
 namespace urban_nav_sim {
 
-/// What is infinitely far away: blue that pales to the horizon, clouds, the glow of the sun; and the light it throws.
-/// Linear RGB, 1 = a white sheet in the sun of a clear day. Immutable, so thread-safe.
+/// The sky: blue gradient, clouds, glow of the sun; and its illumination. Linear RGB, 1 = a white sheet in the sun of a
+/// clear day. Immutable, hence thread-safe.
 class Sky {
  public:
   Sky(const Day& day, std::uint64_t seed);
 
   const Day& day() const { return day_; }
-  /// Seen in a direction (unit, `world`); below the horizon the haze there would be.
+  /// Returns the radiance in a direction (unit, `world`); haze below the horizon.
   Eigen::Vector3f radiance(const Eigen::Vector3f& direction) const;
-  /// What a mirror shows where the direction leads: the sky above roofs, below it their dark outline.
+  /// Returns the radiance for mirror reflections: sky above the roofs, dark outline below.
   Eigen::Vector3f mirrored(const Eigen::Vector3f& direction) const;
-  /// What a white surface sends back of the light of sky and ground, without the sun. Normal: unit, `world`.
+  /// Returns the radiance of a white surface lit by sky and ground, without the sun. Normal: unit, `world`.
   Eigen::Vector3f ambient(const Eigen::Vector3f& normal) const {
     const float up = 0.5F + 0.5F * normal.z();
     return up * day_.sky + (1.0F - up) * day_.ground;
   }
-  /// The colour that things take on in the distance.
+  /// Returns the colour of the haze.
   const Eigen::Vector3f& haze() const { return haze_; }
 
  private:

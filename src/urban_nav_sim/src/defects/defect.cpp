@@ -80,7 +80,7 @@ std::string listDefects(Sensor sensor) {
   return list;
 }
 
-/// What a word of the command line stands for, at least one.
+/// Returns the sensors and defects of a word of the command line, at least one.
 std::vector<std::pair<Sensor, Defect>> parse(const std::string& word, const std::string& where) {
   const std::size_t colon = word.find(':');
   if (colon == std::string::npos) throw UserError(where, "\"" + word + "\"", "SENSOR:DEFECT, as in imu:noise");

@@ -14,7 +14,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-/// Numbers after the first part; UserError if one is none.
+/// Returns the numbers after the first part. Throws UserError for other text.
 std::vector<double> delayNumbers(const std::vector<std::string_view>& parts, std::size_t from,
                                  const std::string& where) {
   std::vector<double> numbers;

@@ -67,13 +67,13 @@ class PseudoTerminal : public DeviceLink {
     if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0 ||
         ::ptsname_r(master_, name.data(), name.size()) != 0)
       throw urban_nav_core::DataError(path_, "no pseudo-terminal: " + std::string(std::strerror(errno)), "");
-    // Kept open, so that the device lives on while no host has it open.
+    // Kept open, so that the device persists while no host has it open.
     slave_ = ::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC);
     termios settings{};
     tcgetattr(slave_, &settings);
     cfmakeraw(&settings);
     tcsetattr(slave_, TCSANOW, &settings);
-    std::error_code ignored;  // a folder that cannot be made shows in the link
+    std::error_code ignored;  // an error is reported on creating the link
     std::filesystem::create_directories(std::filesystem::path(path_).parent_path(), ignored);
     const std::string fresh = path_ + ".new";
     ::unlink(fresh.c_str());

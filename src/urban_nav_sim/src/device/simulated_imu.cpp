@@ -30,7 +30,7 @@ void appendImuFloat(DeviceBytes& bytes, double value) {
   for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::uint8_t>(bits >> shift & 0xFFU));
 }
 
-/// Sensor to NWU (x north, y west, z up) from sensor to ENU: a turn of -90 deg about z from the left.
+/// Returns sensor to NWU (x north, y west, z up) from sensor to ENU: a rotation by -90 deg about z from the left.
 std::array<double, 4> nwuFromEnu(const std::array<double, 4>& q) {
   const double h = std::sqrt(0.5);
   return {h * (q[0] + q[3]), h * (q[1] + q[2]), h * (q[2] - q[1]), h * (q[3] - q[0])};

@@ -88,7 +88,7 @@ void SimulatedLaser::boot() {
   sendNow(sickTelegram(payload));
 }
 
-/// Loses measurements once a fault: the counters run on.
+/// Skips measurements once per fault, while the counters continue.
 void SimulatedLaser::skipGap() {
   const DeviceFault* gap = fault(DeviceFaultKind::Gap);
   if (gap == nullptr || gap_done_) {

@@ -14,19 +14,19 @@
 
 namespace urban_nav_sim {
 
-/// Lets measurements through, faults included. The same seed and measurements give the same result. Not thread-safe.
+/// Applies faults to measurements. Deterministic for equal seed and measurements. Not thread-safe.
 class FaultFilter {
  public:
-  /// `right_lens`: of the right stereo camera, which a knock turns.
+  /// `right_lens`: of the right stereo camera, which Knock rotates.
   FaultFilter(std::vector<Fault> faults, std::uint64_t seed, urban_nav_core::StampNs begin,
               const Lens& right_lens = {});
 
-  /// The measurement as it arrives; none if it was lost. They come in the order in which they were `taken`, whatever
-  /// their stamps say. The truth has no faults.
+  /// Returns the measurement with faults; nullopt if lost. Measurements must be in the order of `taken`, independent of
+  /// their stamps. The truth is not modified.
   std::optional<Measurement> apply(Measurement measurement, urban_nav_core::StampNs taken);
 
  private:
-  /// Streams that freeze each by itself: a camera of the Ladybug, one of the lasers.
+  /// Streams that freeze independently: a camera of the Ladybug, one of the lasers.
   using Stream = std::pair<Sensor, int>;
 
   void spoil(const Fault& fault, double t, const Stream& stream, Measurement& measurement);
@@ -37,7 +37,7 @@ class FaultFilter {
   urban_nav_core::StampNs begin_;
   Lens right_lens_;
   std::map<Stream, Measurement> last_good_;
-  std::map<double, TurnedView> turns_;  // the right camera turned, by deg
+  std::map<double, TurnedView> turns_;  // views of the rotated right camera, by deg
 };
 
 }  // namespace urban_nav_sim

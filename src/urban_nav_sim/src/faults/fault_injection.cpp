@@ -31,7 +31,7 @@ void set(StampNs stamp, LidarMeasurement& measurement) {
   for (urban_nav_core::Beam& beam : measurement.sweep.beams) beam.stamp += shift;
 }
 
-/// Pixels are shared with what was sent before: they are changed in a copy.
+/// Modifies a copy, since pixels are shared with previous measurements.
 void corruptRows(double share, std::uint64_t seed, cv::Mat& image) {
   image = image.clone();
   for (int v = 0; v < image.rows; ++v) {
@@ -41,7 +41,7 @@ void corruptRows(double share, std::uint64_t seed, cv::Mat& image) {
   }
 }
 
-/// Vertical streaks of 12 px, half transparent.
+/// Draws vertical streaks of 12 px, half transparent.
 void drawStreaks(double share, std::uint64_t seed, cv::Mat& image) {
   if (image.empty()) return;
   image = image.clone();
@@ -68,7 +68,7 @@ void darkenPixels(double factor, std::uint64_t seed, cv::Mat& image) {
     }
 }
 
-/// Sets one of the numbers to anything up to `size`.
+/// Sets one of the numbers to a random value up to `size`.
 class CorruptedBytes {
  public:
   CorruptedBytes(double share, std::uint64_t seed) : share_(share), draw_(seed) {}

@@ -8,12 +8,12 @@
 
 namespace urban_nav_sim {
 
-/// The picture that a camera gives after it was turned about its centre, resampled from the one before: a turn moves
-/// pixels whatever their distance. Pixels without a source repeat the border.
+/// Resamples an image for a camera rotated about its centre, which moves pixels independently of depth. Pixels without
+/// a source repeat the border.
 class TurnedView {
  public:
   TurnedView() = default;
-  /// `turn`: takes directions in the axes of the turned camera to those before.
+  /// `turn`: rotation from the axes of the rotated camera to the original ones.
   TurnedView(const Lens& lens, const Eigen::AngleAxisd& turn);
 
   /// Requires an image of the size of the lens.

@@ -20,10 +20,10 @@ namespace {
 
 constexpr double kRadius = 30.0;   // m
 constexpr float kSpacing = 0.05F;  // m
-constexpr double kSunk = 0.3;  // m: walls go on below the ground; the land around a site is seen, and lies 0.15 m lower
+constexpr double kSunk = 0.3;  // m: walls extend below the ground; the land around a site is visible and 0.15 m lower
 constexpr std::size_t kRowBytes = 3 * sizeof(float) + 1;
 
-/// Calls point(p, class) for each, always in the same order.
+/// Calls point(p, class) for each point, in a fixed order.
 template <typename Point>
 void forEachPoint(const World& world, const RouteDistance& near, const Point& point) {
   for (const Part& part : world.parts) {
@@ -52,7 +52,7 @@ void forEachPoint(const World& world, const RouteDistance& near, const Point& po
 
 void sampleTriangle(const Vector3f& a, const Vector3f& b, const Vector3f& c, float apart,
                     const std::function<void(const Vector3f&)>& place) {
-  // Rows along the longest side, from it to the corner across.
+  // Rows parallel to the longest side, up to the opposite corner.
   const std::array<const Vector3f*, 3> corner = {&a, &b, &c};
   std::size_t first = 0;
   float longest = -1.0F;

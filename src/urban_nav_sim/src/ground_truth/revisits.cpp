@@ -13,8 +13,8 @@ namespace {
 using urban_nav_core::StampedPose;
 using urban_nav_core::Trajectory;
 
-constexpr double kOtherPlace = 10.0;  // m: false closures keep clear of the limit
-constexpr int kTries = 200;           // for each of them
+constexpr double kOtherPlace = 10.0;  // m: margin of false closures to the limit
+constexpr int kTries = 200;           // per false closure
 
 double heading(const StampedPose& at) {
   const Eigen::Vector3d forward = at.pose.q() * Eigen::Vector3d::UnitX();
@@ -30,7 +30,7 @@ Revisit between(const Trajectory& panoramas, std::size_t a, std::size_t b) {
   return {a, b, urban_nav_core::distanceBetween(panoramas[a].pose, panoramas[b].pose), turned * 180.0 / M_PI};
 }
 
-// Panoramas by squares of kSamePlace: who is near stands in the same square or in one of the eight around it.
+// Panoramas by grid squares of kSamePlace: near ones are in the same square or one of its eight neighbours.
 class Squares {
  public:
   void add(const Eigen::Vector3d& at, std::size_t index) { squares_[toSquare(at)].push_back(index); }
@@ -55,7 +55,7 @@ class Squares {
   std::map<Square, std::vector<std::size_t>> squares_;
 };
 
-// What probabilities a recogniser states above its limit, in steps of 0.0001.
+// Probability of a recogniser above its limit, in steps of 0.0001.
 double sure(const Noise& noise, std::size_t number) {
   return (9900.0 + std::floor(noise.uniform(number, 0.0, 100.0))) / 1e4;
 }
@@ -70,7 +70,7 @@ std::vector<Revisit> findRevisits(const Trajectory& panoramas) {
     const std::size_t first = all.size();
     seen.forEachAround(at, [&](const std::vector<std::size_t>& square) {
       for (const std::size_t a : square) {
-        if (!isLater(panoramas[a], panoramas[b])) break;  // a square is in the order of time
+        if (!isLater(panoramas[a], panoramas[b])) break;  // squares are in the order of time
         if ((panoramas[a].pose.t() - at).norm() <= kSamePlace) all.push_back(between(panoramas, a, b));
       }
     });

@@ -9,31 +9,31 @@
 
 namespace urban_nav_sim {
 
-constexpr double kSamePlace = 7.5;    ///< m in space: nearer panoramas show one place (docs/files.md)
-constexpr double kRevisitGap = 30.0;  ///< s: nearer in time it is not coming back
+constexpr double kSamePlace = 7.5;    ///< m: largest distance of panoramas of one place (docs/files.md)
+constexpr double kRevisitGap = 30.0;  ///< s: smallest time difference of a revisit
 
 /// Two panoramas taken at one place; by index, `a` the earlier.
 struct Revisit {
   std::size_t a = 0, b = 0;
   double distance = 0.0;     ///< m
-  double heading_deg = 0.0;  ///< of b beside a, about z, -180 ... 180, counter-clockwise
+  double heading_deg = 0.0;  ///< of b relative to a, about z, -180 ... 180, counter-clockwise
 };
 
-/// All pairs within kSamePlace and more than kRevisitGap apart, in the order of b, then of a. Time and memory grow with
-/// the number of pairs, not with its square.
+/// Returns all pairs within kSamePlace and more than kRevisitGap apart, in the order of b, then of a. Time and memory
+/// are linear in the number of pairs.
 std::vector<Revisit> findRevisits(const urban_nav_core::Trajectory& panoramas);
 
-/// What a place recogniser says: these two panoramas show one place.
+/// Output of a place recogniser: two panoramas of the same place.
 struct Closure {
   std::size_t a = 0, b = 0;
   double probability = 1.0;
 };
 
-/// For each panorama that has revisits, the one nearest to it. In the order of b.
+/// Returns the nearest revisit of each panorama that has one, in the order of b.
 std::vector<Closure> trueClosures(const std::vector<Revisit>& revisits, const Noise& noise);
 
-/// `count` different pairs more than kRevisitGap and 10 m apart, as sure of themselves as the true ones, in the order
-/// of b, then of a; fewer where the session has no such pairs.
+/// Returns `count` different pairs more than kRevisitGap and 10 m apart, with probabilities like the true ones, in the
+/// order of b, then of a; fewer if the session has no such pairs.
 std::vector<Closure> falseClosures(const urban_nav_core::Trajectory& panoramas, std::size_t count, const Noise& noise);
 
 }  // namespace urban_nav_sim

@@ -10,10 +10,10 @@ namespace urban_nav_sim {
 namespace {
 
 constexpr float kRouteCell = 0.5F;  // m
-constexpr double kApart = 0.5;      // m, of the places whose surroundings are marked
+constexpr double kApart = 0.5;      // m, between the positions whose surroundings are marked
 constexpr double kLook = 0.05;      // s
 
-/// Places along the way, some half a metre apart.
+/// Returns positions along the path, about half a metre apart.
 std::vector<Eigen::Vector2d> samplePositions(const Motion& motion) {
   std::vector<Eigen::Vector2d> places;
   const auto steps = static_cast<int>(std::ceil(motion.duration() / kLook));

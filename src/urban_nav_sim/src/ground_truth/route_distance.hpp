@@ -8,18 +8,17 @@
 
 namespace urban_nav_sim {
 
-/// Which places of the ground plan lie near the way of a motion: asked for millions of points, so kept as a grid.
-/// Immutable, so thread-safe.
+/// Grid of the ground plan near the path of a motion, for queries of millions of points. Immutable, hence thread-safe.
 class RouteDistance {
  public:
-  /// `radius`: m; it is kept to half a cell, 0.25 m.
+  /// `radius`: m, accurate to half a cell, 0.25 m.
   RouteDistance(const Motion& motion, double radius);
 
   bool has(float x, float y) const {
     const int i = cellIndex(x - low_.x()), j = cellIndex(y - low_.y());
     return i >= 0 && j >= 0 && i < columns_ && j < rows_ && near_[static_cast<std::size_t>(j * columns_ + i)];
   }
-  /// False only where nothing of the rectangle is near.
+  /// Returns false only if no part of the rectangle is near.
   bool touches(const Eigen::Vector2f& low, const Eigen::Vector2f& high) const;
 
  private:

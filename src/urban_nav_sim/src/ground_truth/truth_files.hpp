@@ -14,9 +14,9 @@
 
 namespace urban_nav_sim {
 
-/// base_link in `world` every 5 ms, from t = 0 to 0.05 s after the end, which covers the last beams.
+/// Returns base_link in `world` every 5 ms, from t = 0 to 0.05 s after the end, which covers the last beams.
 urban_nav_core::Trajectory trueTrajectory(const Motion& motion, const Clock& truth);
-/// base_link in `world` at the stamps that panoramas have, or would have.
+/// Returns base_link in `world` at the (possible) stamps of panoramas.
 urban_nav_core::Trajectory truePanoramas(const Motion& motion, const Clock& ladybug);
 
 /// `stamp_a_ns,stamp_b_ns,distance_m,heading_deg`, to 0.1 mm and 0.001 deg.
@@ -26,7 +26,7 @@ void writeRevisits(const std::string& path, const urban_nav_core::Trajectory& pa
 void writeClosures(const std::string& path, const urban_nav_core::Trajectory& panoramas,
                    const std::vector<Closure>& closures);
 
-/// `sensor,offset_s,skew,jitter_s`: by how much the stamps of each are off.
+/// `sensor,offset_s,skew,jitter_s`: errors of the stamps of each sensor.
 void writeClocks(const std::string& path, const std::map<Sensor, ClockOptions>& clocks);
 
 /// `ring,elevation_deg,elevation_error_deg,range_bias_m`: nominal elevation, true minus nominal, measured minus true.
@@ -38,9 +38,9 @@ void writeImuErrors(const std::string& folder, const Imu& imu, const Clock& trut
 /// wheels.csv: `stamp_ns,left_scale,right_scale,slip_left,slip_right` at the true times of all measurements.
 void writeWheelErrors(const std::string& folder, const Wheels& wheels, const Clock& truth);
 
-/// The truth folder of docs/files.md but for cloud.ply, into a folder that exists: trajectory.tum, revisits.csv,
-/// closures_true.csv and, if `false_percent` is above zero, closures_false.csv with so many per cent of the number of
-/// true ones. `ladybug`: the clock that stamps panoramas. Throws UserError naming the file that cannot be written.
+/// Writes the truth folder of docs/files.md, without cloud.ply, into an existing folder: trajectory.tum, revisits.csv,
+/// closures_true.csv and, if `false_percent` is positive, closures_false.csv with that percentage of the number of true
+/// ones. `ladybug`: clock of the stamps of panoramas. Throws UserError naming a file that cannot be written.
 void writeTruthFiles(const std::string& folder, const Motion& motion, const Clock& truth, const Clock& ladybug,
                      double false_percent, std::uint64_t seed);
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLargestSlant = 0.02;  // m
 
-/// Second differences of the range across the beam, m; infinite or NaN where a ray met nothing.
+/// Second differences of the range across the beam, m; infinite or NaN for a ray without hit.
 double computeSlant(double middle, double above, double below, double left, double right) {
   return std::abs(above - 2.0 * middle + below) + std::abs(left - 2.0 * middle + right);
 }
@@ -27,7 +27,7 @@ Echo makeEcho(const Snapshot& snapshot, const Packet& packet, const Hits& hits, 
   const float cosine = std::abs(point.normal.dot(direction.normalized()));
   echo.range = point.distance;
   echo.strength = static_cast<double>(look.infrared * (1.0F - look.gloss) * cosine);
-  // Glass at a right angle to the beam is a mirror.
+  // Glass at normal incidence is a mirror.
   if (cosine > 0.998F) echo.strength += static_cast<double>(look.gloss);
   echo.surface_class = point.surface_class;
   return echo;
@@ -42,11 +42,11 @@ Echo mixEchoes(const BeamEchoes& footprint, double pulse) {
   const Echo& middle = footprint[0];
   double near = std::numeric_limits<double>::infinity();
   for (const Echo& echo : footprint) near = std::min(near, echo.range);
-  // A slanted surface spreads its echoes evenly about the middle one; an edge does not.
+  // A slanted surface spreads its echoes symmetrically about the central one; an edge does not.
   const double slant =
       computeSlant(middle.range, footprint[1].range, footprint[2].range, footprint[3].range, footprint[4].range);
   if (!std::isfinite(near) || slant < kLargestSlant) return middle;
-  // The first echo that is strong enough, drawn backwards by what follows it within the pulse.
+  // The first sufficiently strong echo, shifted backwards by later ones within the pulse.
   double weights = 0.0, sum = 0.0;
   for (std::size_t i = 0; i < footprint.size(); ++i) {
     const Echo& echo = footprint[i];

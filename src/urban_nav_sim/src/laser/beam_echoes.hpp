@@ -15,19 +15,19 @@ struct Echo {
   SurfaceClass surface_class = SurfaceClass::Other;
 };
 
-/// Rays of a beam's cross-section: its middle, then two pairs opposite each other at half its radius.
+/// Rays of the cross-section of a beam: centre, then two opposite pairs at half its radius.
 constexpr int kRaysOfBeam = 5;
 using BeamEchoes = std::array<Echo, kRaysOfBeam>;
 
-/// Returns the echo of the surface that a ray has met; of none if it met nothing. `width`: angle of the beam there,
-/// rad, over which the appearance of the surface is averaged.
+/// Returns the echo of the surface hit by a ray; an empty echo without a hit. `width`: angular width of the beam, rad,
+/// over which the appearance of the surface is averaged.
 Echo makeEcho(const Snapshot& snapshot, const Packet& packet, const Hits& hits, int lane, float width);
 
-/// Returns whether the ranges of a footprint differ by more than a slanted surface explains: an edge goes through it.
+/// Returns whether a footprint contains an edge: its ranges differ by more than on a slanted surface.
 bool hasEdge(const std::array<double, kRaysOfBeam>& ranges);
 
-/// Returns what a device takes for one echo: that of the middle or, at an edge, the mean of the first echo and of those
-/// that follow it within `pulse` (m), weighted by their strength at the receiver.
+/// Returns the echo detected by a device: that of the centre or, at an edge, the mean of the first echo and later ones
+/// within `pulse` (m), weighted by their strength at the receiver.
 Echo mixEchoes(const BeamEchoes& footprint, double pulse);
 
 }  // namespace urban_nav_sim

@@ -20,19 +20,19 @@ using urban_nav_core::Pose;
 constexpr double kBeamStep = 0.5 * M_PI / 180.0;      // rad from beam to beam
 constexpr double kExit = 0.013, kDivergence = 0.011;  // m, rad: width of the beam (1.6 there)
 constexpr double kWeakest = 0.1 / (30.0 * 30.0);      // 30 m on an albedo of 0.1 (1.3 there)
-constexpr double kPulse = 1.5;                        // m: echoes nearer to each other than that are one to the device
+constexpr double kPulse = 1.5;                        // m: the device does not separate closer echoes
 constexpr float kFarRange = 200.0F;                   // m
 constexpr int kBeamsOfPacket = kLanes / kRaysOfBeam;
 
-/// Towards the ray of a beam's footprint, laser's frame; the outer ones lie at half the radius.
+/// Returns the direction of a ray of the footprint of a beam, in the laser frame; outer rays are at half the radius.
 Vector3d beamRay(int beam, int ray) {
   const double angle = -M_PI / 4.0 + kBeamStep * beam, off = kDivergence / 4.0;
   const double up = ray == 1 ? off : ray == 2 ? -off : 0.0, aside = ray == 3 ? off : ray == 4 ? -off : 0.0;
   return {std::cos(angle) - aside * std::sin(angle), std::sin(angle) + aside * std::cos(angle), up};
 }
 
-/// The echo's value as the log has it: path at 1-1.5 m 37-54, walls at 3.5-5.5 m 53-80; the optics lose light near by,
-/// distance takes it from 8 m on (Smith et al. 2009; data sheet of the LMS291).
+/// Returns the intensity as in the log: path at 1-1.5 m 37-54, walls at 3.5-5.5 m 53-80; the optics lose light at short
+/// range, distance attenuates from 8 m on (Smith et al. 2009; data sheet of the LMS291).
 double computeIntensity(double strength, double range) {
   const double optics = range / (range + 0.5), distance = range > 8.0 ? 8.0 / range : 1.0;
   return 190.0 * std::pow(std::max(strength, 0.0), 0.85) * optics * distance;
@@ -59,7 +59,7 @@ Lms291::Reading Lms291::measured(const BeamEchoes& footprint, const Noise& noise
   const Echo echo = settings_.mixes ? mixEchoes(footprint, kPulse) : footprint[0];
   if (!std::isfinite(echo.range)) return {};
   const auto counter = static_cast<std::uint64_t>(beam);
-  // Fading makes the limit a soft one.
+  // Fading softens the limit.
   const double limit = kWeakest * std::exp(0.4 * noise.of("fading").normal(counter));
   if (settings_.loses && !(echo.strength / (echo.range * echo.range) > limit)) return {};
   const double sigma = settings_.sigma * (echo.range > 20.0 ? 2.0 : 1.0);
@@ -72,7 +72,7 @@ Lms291::Reading Lms291::measured(const BeamEchoes& footprint, const Noise& noise
   return {shown, std::clamp(intensity, 1.0, 255.0)};
 }
 
-/// Echoes of a beam's rays.
+/// Returns the echoes of the rays of a beam.
 BeamEchoes Lms291::echoes(const Snapshot& snapshot, const Packet& packet, const Hits& hits, int first_lane) {
   BeamEchoes footprint;
   for (int ray = 0; ray < kRaysOfBeam; ++ray) {

@@ -15,7 +15,7 @@ using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_core::Sweep;
 
-/// One beam: its measurement, and what it truly met.
+/// One beam: measurement and true hit.
 struct Lidar3d::Return {
   float range = std::numeric_limits<float>::infinity();  ///< m; infinite: no return
   float intensity = 0.0F;                                ///< 0 ... 255
@@ -23,7 +23,7 @@ struct Lidar3d::Return {
   SurfaceClass true_class = SurfaceClass::Other;
 };
 
-/// One firing of all lasers: where the sensor is at its begin and at that of the next one.
+/// One firing of all lasers: poses of the sensor at its begin and at that of the next one.
 struct Lidar3d::Column {
   std::uint64_t sweep;
   int index;
@@ -35,15 +35,15 @@ struct Lidar3d::Column {
 namespace {
 
 constexpr double kBeamDivergence = 3e-3;              // rad, VLP-16
-constexpr double kPulseLength = 0.8;                  // m: 5 ns; nearer echoes are one to the device
+constexpr double kPulseLength = 0.8;                  // m: 5 ns; the device does not separate closer echoes
 constexpr double kWeakestEcho = 0.1 / (50.0 * 50.0);  // 50 m on an albedo of 0.1 (HDL-64E)
-constexpr double kLost = 3e-3;                        // share of the beams, whatever they meet
+constexpr double kLost = 3e-3;                        // share of the beams, for any surface
 constexpr double kFullScale = 100.0;                  // intensity of an ideal diffuse reflector (VLP-16)
 constexpr float kTracedRange = 250.0F;                // m
-constexpr int kPieces = 10;  // of a sweep, each with its own snapshot: in 10 ms movers go straight
+constexpr int kPieces = 10;                           // per sweep, each with a snapshot; movers are linear within 10 ms
 constexpr std::size_t kColumnsOfTask = 10;
 
-/// Direction of a ray of a beam's footprint; the outer ones lie at half the radius.
+/// Returns the direction of a ray of the footprint of a beam; outer rays are at half the radius.
 Vector3d footprintRay(const Vector3d& middle, int ray) {
   if (ray == 0) return middle;
   const Vector3d aside = middle.unitOrthogonal(), along = middle.cross(aside);
@@ -51,7 +51,7 @@ Vector3d footprintRay(const Vector3d& middle, int ray) {
   return middle + off * (ray <= 2 ? along : aside);
 }
 
-/// Pose between two that are 50 us apart.
+/// Interpolates between two poses 50 us apart.
 Pose between(const Pose& a, const Pose& b, double f) {
   const Eigen::Quaterniond& p = a.q();
   Eigen::Quaterniond q = b.q();
@@ -92,7 +92,7 @@ Lidar3d::Return Lidar3d::measured(const Echo& echo, const Echo& truth, int ring,
   if (!std::isfinite(echo.range)) return result;
   const auto counter = static_cast<std::uint64_t>(ring);
   if (settings_.loses) {
-    // Fading makes the limit a soft one.
+    // Fading softens the limit.
     const double limit = kWeakestEcho * std::exp(0.4 * noise.of("fading").normal(counter));
     if (!(echo.strength / (echo.range * echo.range) > limit) || noise.of("lost").chance(counter, kLost)) return result;
   }
@@ -112,8 +112,8 @@ Lidar3d::Return Lidar3d::measured(const Echo& echo, const Echo& truth, int ring,
   return result;
 }
 
-/// Casts the beams of a column, sixteen rings at a time; the rays around the middle of a beam only where mixed echoes
-/// are wanted. `returns`: one for each ring.
+/// Casts the beams of a column, sixteen rings at a time; rays around the centre of a beam only for mixed echoes.
+/// `returns`: one per ring.
 void Lidar3d::castColumn(const Snapshot& snapshot, const Column& column, Return* returns) const {
   const Noise noise = noise_.of(column.sweep).of(static_cast<std::uint64_t>(column.index));
   const int rays = settings_.mixes ? kRaysOfBeam : 1, rings = pattern_.rings();

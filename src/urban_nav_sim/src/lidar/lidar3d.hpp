@@ -13,29 +13,27 @@
 
 namespace urban_nav_sim {
 
-/// Surfaces that the beams of a sweep meet, without noise: one value for each ring and column, at
-/// `ring * columns + column`.
+/// Surfaces hit by the beams of a sweep, without noise: one value per ring and column, at `ring * columns + column`.
 struct SweepTruth {
   int rings = 0, columns = 0;
   std::vector<float> range;  ///< m along the beam; infinite for the sky
   std::vector<SurfaceClass> surface_class;
 };
 
-/// A 3D LiDAR with 16 to 128 rings or a rosette pattern. Each beam is cast from the pose of its own time among the
-/// moving things of that time. Errors: Velodyne's data sheets (HDL-64E, VLP-16), Glennie and Lichti 2010 for the rings.
-/// Immutable, so thread-safe; works on several threads with results that do not depend on their number. The tracer must
-/// outlive it.
+/// A 3D LiDAR with 16 to 128 rings or a rosette pattern. Each beam is cast from the pose of its time among moving
+/// objects of that time. Errors: Velodyne's data sheets (HDL-64E, VLP-16), Glennie and Lichti 2010 for the rings.
+/// Immutable, hence thread-safe; uses several threads, without effect on the result. The tracer must outlive it.
 class Lidar3d {
  public:
   struct Settings {
-    double sigma = 0.02;                            ///< m, range noise of each beam; 0: none of intensities either
+    double sigma = 0.02;                            ///< m, range noise of each beam; 0: also no noise of intensities
     double ring_range_sigma = 0.01;                 ///< m, standard deviation of the constant range bias of a ring
     double ring_angle_sigma = 0.02 * M_PI / 180.0;  ///< rad, standard deviation of its constant elevation error
-    double step = 2e-3;                             ///< m, resolution of ranges; 0: none, nor of intensities
+    double step = 2e-3;                             ///< m, resolution of ranges; 0: none, also of intensities
     double range_min = 0.5, range_max = 120.0;      ///< m
     bool mixes = true;                              ///< echoes of two surfaces at an edge give a range between them
-    bool loses = true;                              ///< weak echoes and three beams in a thousand are lost
-    bool has_times = true;                          ///< false: all beams have the stamp of the sweep's end
+    bool loses = true;                              ///< weak echoes and 0.3 % of the beams are lost
+    bool has_times = true;                          ///< false: all beams have the stamp of the end of the sweep
 
     /// Without noise, biases, steps, mixed pixels and losses.
     static Settings exact();
@@ -52,7 +50,7 @@ class Lidar3d {
           const Settings& settings);
 
   /// Returns the `number`-th sweep, which ends at `t_end` (s of the session) and begins one period earlier. `stamp`: of
-  /// its end. Directions are those that the device states: nominal elevations. `truth`, if not null, is overwritten.
+  /// its end. Directions are those stated by the device, with nominal elevations. `truth`, if not null, is overwritten.
   urban_nav_core::Sweep sweep(const Motion& motion, double t_end, urban_nav_core::StampNs stamp, std::uint64_t number,
                               SweepTruth* truth = nullptr) const;
 

@@ -19,7 +19,7 @@ constexpr double kLineSpacing = 0.42 * kRadiansPerDegree;
 
 double fraction(double turns) { return turns - std::floor(turns); }
 
-/// Deflections of two thin prisms add up as vectors across the axis.
+/// Returns the direction after two thin prisms, whose deflections add as vectors across the axis.
 Vector3d rosetteDirection(double t) {
   const double first = 2.0 * M_PI * fraction(kFirstPrism * t), second = -2.0 * M_PI * fraction(kSecondPrism * t);
   const Vector2d across =

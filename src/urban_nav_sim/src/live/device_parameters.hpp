@@ -13,7 +13,7 @@ namespace urban_nav_sim {
 struct DeviceParameters {
   std::string kind, bag, side, link;
   int tcp;            // port, 0: none
-  std::string fault;  // faults as parseDeviceFault takes them
+  std::string fault;  // faults for parseDeviceFault()
   std::string clock, delay;
   std::string begin, truth;
   bool held;
@@ -24,8 +24,8 @@ struct DeviceParameters {
 
 const urban_nav_core::Table<DeviceParameters>& deviceTable();
 
-/// Throws UserError for a missing bag or link, and for a fault, clock or delay that cannot be read, naming the key
-/// after `where` ("/laser/").
+/// Throws UserError for a missing bag or link, and for an invalid fault, clock or delay, naming the key after `where`
+/// ("/laser/").
 SimulatedDeviceJob simulatedDeviceJob(const DeviceParameters& parameters, const std::string& where);
 
 }  // namespace urban_nav_sim

@@ -7,15 +7,15 @@
 
 namespace urban_nav_sim {
 
-/// What the services want of the worker, and where the worker waits. Thread-safe.
+/// Requests of the services to the worker, and the waiting of the worker. Thread-safe.
 class PlaybackControl {
  public:
   using Wall = std::chrono::steady_clock::time_point;
   enum class Answer {
-    Go,      ///< it is time
+    Go,      ///< due
     Wait,    ///< not yet
     Paused,  ///< not before resume()
-    End      ///< the session is to begin again, or the worker is to end
+    End      ///< the session must restart, or the worker must end
   };
 
   void pause(bool paused) {
@@ -24,18 +24,18 @@ class PlaybackControl {
   void reset() {
     change([&] { reset_ = true; });
   }
-  /// From now on every answer is End.
+  /// All later answers are End.
   void close() {
     change([&] { closed_ = true; });
   }
 
-  /// A session begins: a reset before is obeyed by that. False when closed.
+  /// Begins a session, which completes a previous reset. Returns false when closed.
   bool begin() {
     const std::lock_guard<std::mutex> lock(mutex_);
     reset_ = false;
     return !closed_;
   }
-  /// Waits until `due`, but not longer than `patience`: the worker may want to say that it is still there.
+  /// Waits until `due`, at most for `patience`, so that the worker can report progress.
   Answer wait(Wall due, std::chrono::milliseconds patience) {
     std::unique_lock<std::mutex> lock(mutex_);
     const Wall end = std::chrono::steady_clock::now() + patience;
@@ -57,7 +57,7 @@ class PlaybackControl {
     changed_.notify_all();
   }
 
-  std::mutex mutex_;  // guards everything below
+  std::mutex mutex_;  // guards the following members
   std::condition_variable changed_;
   bool paused_ = false, reset_ = false, closed_ = false;
 };

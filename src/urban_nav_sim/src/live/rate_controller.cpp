@@ -8,12 +8,12 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-// A panorama may take half a second to render, which the frames after it make good.
+// Rendering a panorama may take half a second, for which later frames compensate.
 constexpr std::chrono::seconds kMaxLag{1};
 constexpr std::chrono::milliseconds kBetweenMarks{250};
 constexpr std::chrono::seconds kMostStamps{5};
 constexpr double kMeasurable = 1.0;  // s
-constexpr double kSlow = 0.95;       // of what was asked for
+constexpr double kSlow = 0.95;       // share of the requested rate
 
 double seconds(std::chrono::steady_clock::duration time) { return duration<double>(time).count(); }
 

@@ -11,23 +11,24 @@
 namespace urban_nav_sim {
 
 /// Wall time at which a measurement of the session is due. A session that is late by less than a second catches up; one
-/// that is later continues from there: its time follows the rendering. Wall times are arguments; no clock is read. Not
+/// that is later continues from there, at the speed of rendering. Wall times are arguments; no clock is read. Not
 /// thread-safe.
 class RateController {
  public:
   using Wall = std::chrono::steady_clock::time_point;
 
-  /// `rate`: seconds of the session in a second of the wall; 0: all is due at once.
+  /// `rate`: seconds of the session per second of wall time; 0: everything is due at once.
   explicit RateController(double rate) : rate_(rate) {}
 
-  /// `taken` does not decrease from call to call.
+  /// Returns the wall time of a measurement. `taken` must not decrease from call to call.
   Wall due(urban_nav_core::StampNs taken, Wall now);
-  /// After a pause: what comes next is due at once.
+  /// Restarts after a pause: the next measurement is due at once.
   void restart();
-  /// What was due has been published: it counts towards factor().
+  /// Records a published measurement, for factor().
   void passed(urban_nav_core::StampNs taken, Wall now);
 
-  /// Seconds of the session in a second of the wall over the last five; empty until one has passed without a pause.
+  /// Returns the seconds of the session per second of wall time over the last five; nullopt until one second has passed
+  /// without a pause.
   std::optional<double> factor() const;
   /// Returns true if the session was late by more than a second and factor() shows it.
   bool isSlow() const;
@@ -39,7 +40,7 @@ class RateController {
   };
   double rate_;
   std::optional<Mark> anchor_;
-  std::deque<Mark> marks_;  // newest last, some twenty
+  std::deque<Mark> marks_;  // newest last, about twenty
   bool slipped_ = false;
 };
 

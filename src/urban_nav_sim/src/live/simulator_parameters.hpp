@@ -8,17 +8,17 @@
 
 namespace urban_nav_sim {
 
-/// Parameters of the live simulator: the options of `urban_nav simulate`, and how it is to run. One member per row of
+/// Parameters of the live simulator: the options of `urban_nav simulate`, and of playback. One member per row of
 /// simulatorTable().
 struct SimulatorParameters {
   std::string world, route;
   int seed, day;
   double duration;            // s
   std::string sensors;        // words of sensorList()
-  std::string lidar;          // as --lidar takes it
-  std::string with, without;  // defects as Defects takes them
-  std::string fault;          // faults as parseFault takes them
-  double rate;                // seconds of the session in a second
+  std::string lidar;          // as --lidar
+  std::string with, without;  // defects, see Defects
+  std::string fault;          // faults for parseFault()
+  double rate;                // seconds of the session per second
   double delay;               // s
   bool paused, exit;
   int threads;
@@ -29,8 +29,8 @@ struct SimulatorParameters {
 
 const urban_nav_core::Table<SimulatorParameters>& simulatorTable();
 
-/// Throws UserError for a world, route, sensor or fault that there is not, naming the key after `where` ("/simulator/")
-/// and what there is.
+/// Throws UserError for an unknown world, route, sensor or fault, naming the key after `where` ("/simulator/") and the
+/// valid values.
 SessionOptions sessionOptions(const SimulatorParameters& parameters, const std::string& where);
 
 }  // namespace urban_nav_sim

@@ -28,17 +28,17 @@ class Canvas {
   std::vector<float> values_;
 };
 
-/// Takes the mean away and divides by the standard deviation.
+/// Subtracts the mean and divides by the standard deviation.
 void standardise(Canvas& canvas);
 
-/// Value noise summed over octaves: `cells` lattice cells along x and y in the first, twice as many in each further
-/// one, whose amplitude is `gain` times that of the one before. Mean 0, standard deviation 1.
+/// Returns value noise summed over octaves: `cells_x`, `cells_y` lattice cells in the first, twice as many in each
+/// further octave, whose amplitude is `gain` times that of the previous one. Mean 0, standard deviation 1.
 Canvas fractalNoise(int size, int cells_x, int cells_y, int octaves, float gain, std::uint64_t seed);
 
-/// Distances to random points, one in each of cells x cells jittered cells (Worley 1996).
+/// Distances to random points, one in each cell of a jittered lattice (Worley 1996).
 struct Pebbles {
   Canvas edge;  ///< second nearest minus nearest distance, in cells: 0 between pebbles
-  Canvas id;    ///< 0 ... 1, the same all over a pebble
+  Canvas id;    ///< 0 ... 1, constant over a pebble
 };
 Pebbles pebbles(int size, int cells, float jitter, std::uint64_t seed);
 

@@ -16,7 +16,7 @@ std::shared_ptr<const Tile> makeTile(float period, const Canvas& mix, const Canv
   return std::make_shared<Tile>(tone.size(), period, mix.values(), tone.values());
 }
 
-/// Scatters `count` spots of `low` to `high` texels radius over both canvases.
+/// Scatters `count` spots with a radius of `low` to `high` texels over both canvases.
 void scatter(Canvas& mix, Canvas& tone, int count, double low, double high, float mix_value, double tone_spread,
              std::uint64_t seed) {
   Draw draw(seed);

@@ -15,7 +15,7 @@ struct Drawn {
   std::vector<std::uint8_t> ranks;
 };
 
-/// `blossoms`: share of them that are of the second colour; 0: each is of some colour between the two.
+/// `blossoms`: share of leaves of the second colour; 0: each leaf has a colour between the two.
 Drawn leavesOn(int size, float texel, int count, double low, double high, float background, double blossoms,
                std::uint64_t seed) {
   Drawn drawn{Canvas(size, 0.4F), Canvas(size, background),
@@ -26,7 +26,7 @@ Drawn leavesOn(int size, float texel, int count, double low, double high, float 
                  half = 0.5 * draw.uniform(low, high) / static_cast<double>(texel);
     const double angle = draw.uniform(0, 6.2832), c = std::cos(angle), s = std::sin(angle),
                  slim = draw.uniform(0.45, 0.75);
-    // Later leaves lie above earlier ones and see more light.
+    // Later leaves lie above earlier ones and receive more light.
     const double light = -0.3 + 0.5 * i / count + 0.22 * draw.normal();
     const double between = std::clamp(0.4 + 0.3 * draw.normal(), 0.0, 1.0);
     const float share = static_cast<float>(blossoms > 0.0 ? (draw.chance(blossoms) ? 1.0 : 0.0) : between);

@@ -12,7 +12,7 @@
 namespace urban_nav_sim {
 namespace {
 
-/// Lengths between `low` and `high` that fill `total` exactly; returns where each ends.
+/// Divides `total` exactly into lengths between `low` and `high`; returns the end of each.
 std::vector<float> divide(float total, float low, float high, Draw& draw) {
   if (low >= high) {
     const int n = std::max(1, static_cast<int>(std::lround(total / low)));

@@ -8,12 +8,12 @@
 namespace urban_nav_sim {
 namespace {
 
-// Ground that is seen under 10 degrees is 6 times as long as wide; flatter than that there is little of it.
+// At an elevation of 10 degrees a footprint on the ground is 6 times as long as wide; lower elevations are rare.
 constexpr int kMostTaps = 6;
-// Albedos of real surfaces; sums of layers may stray outside where all are extreme.
+// Albedos of real surfaces; sums of extreme layers may exceed them.
 constexpr float kDarkest = 0.015F, kLightest = 0.92F;
 
-/// Where the picture of this instance begins, in shares of a period.
+/// Returns the texture offset of this instance in shares of a period.
 Eigen::Vector2f drawStart(std::uint64_t bits) {
   return {static_cast<float>(bits & 0xFFFFU) / 65536.0F, static_cast<float>((bits >> 16) & 0xFFFFU) / 65536.0F};
 }
@@ -44,7 +44,7 @@ Appearance lookAt(const Material& material, const MaterialSample& spot) {
                   material.infrared_per_tone * detail.tone;
   look.gloss = material.glosses[0] + (material.glosses[1] - material.glosses[0]) * detail.mix;
   float stain = 0.0F;
-  // Along the long axis layers may blur: their own detail is coarse, and taps would double the time.
+  // Layers may blur along the long axis: their detail is coarse, and taps would double the time.
   const float width = 0.5F * (footprint.width + footprint.length.norm());
   std::uint64_t more = bits;
   for (const Layer& layer : material.layers) {
@@ -59,7 +59,7 @@ Appearance lookAt(const Material& material, const MaterialSample& spot) {
   }
   look.infrared = std::clamp(look.infrared * (1.0F + 0.5F * stain), kDarkest, kLightest);
   if (spot.wet > 0.0F) {
-    const float film = spot.wet * std::clamp(0.6F - 1.5F * stain, 0.0F, 1.0F);  // hollows keep the water
+    const float film = spot.wet * std::clamp(0.6F - 1.5F * stain, 0.0F, 1.0F);  // hollows retain water
     look.albedo *= 1.0F - material.soaks * (0.6F * spot.wet + 0.4F * film);
     look.infrared *= 1.0F - material.soaks * spot.wet;
     look.gloss += (1.0F - look.gloss) * material.shines * film;

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector3f;
 
-/// The same hue, lighter or darker by some per cent, a little warmer or colder.
+/// Returns the same hue with random changes of lightness and warmth.
 Vector3f varied(const Vector3f& colour, double light, double warmth, Draw& draw) {
   const double l = 1.0 + light * draw.normal(), w = warmth * draw.normal();
   return (colour.array() *

@@ -11,7 +11,7 @@
 
 namespace urban_nav_sim {
 
-/// What worlds are built of.
+/// Materials of worlds.
 enum class MaterialKind {
   Ashlar,
   Rubble,
@@ -49,12 +49,11 @@ enum class MaterialKind {
   Skin
 };
 
-/// Makes materials; draws each tile once, when the first material needs it. Not for several threads at a time.
-/// The same seed gives the same materials.
+/// Makes materials; draws each tile once, on first use. Not thread-safe. The same seed gives the same materials.
 class MaterialLibrary {
  public:
   explicit MaterialLibrary(std::uint64_t seed) : seed_(seed) {}
-  /// `variant`: another colour of the same stuff (0, 1, 2, ...).
+  /// `variant`: colour variant of the material (0, 1, 2, ...).
   Material make(MaterialKind stuff, std::uint64_t variant = 0);
 
  private:

@@ -10,11 +10,11 @@
 namespace urban_nav_sim {
 namespace {
 
-constexpr double kGradientStep = 0.02;                  // m: of the differences that give the gradient
+constexpr double kGradientStep = 0.02;                  // m: step of the differences of the gradient
 constexpr double kShort = 0.12, kShortHeight = 1.2e-3;  // m: spacing of the lattice and standard deviation
 constexpr double kLong = 0.5, kLongHeight = 6e-3;       // m
 
-// The height of the centre of a wheel that touches the ground in one point, r along the normal below it.
+// Returns the height of the centre of a wheel whose contact point lies r below it along the normal.
 double wheelCentre(const RoughGround& ground, const Eigen::Vector2d& centre) {
   Eigen::Vector2d touch = centre;
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();

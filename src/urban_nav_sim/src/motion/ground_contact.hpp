@@ -8,18 +8,18 @@
 
 namespace urban_nav_sim {
 
-/// What wheels roll on: a smooth height and, on it, what is too small for it: stones, joints of slabs, ruts. As tyres
-/// feel it, nothing is shorter than 0.24 m. Immutable, so thread-safe.
+/// Ground under the wheels: a smooth height plus roughness: stones, joints of slabs, ruts. As tyres filter it, no
+/// wavelength is below 0.24 m. Immutable, so thread-safe.
 class RoughGround {
  public:
-  /// `roughness` 1: 1.2 mm (standard deviation) of some 0.3 m length and 6 mm of 1 m, which rocks the robot as the
-  /// gravel of the New College log does (roll about its trend over 3.5 s: 0.45 deg, there 0.5). An empty function is
+  /// `roughness` 1: standard deviation 1.2 mm at wavelengths of about 0.3 m and 6 mm at 1 m, which gives the roll of
+  /// the New College log on gravel (about its trend over 3.5 s: 0.45 deg, in the log 0.5). An empty function means
   /// level ground.
   RoughGround(std::function<double(double, double)> smooth, double roughness, const Noise& noise);
 
   double height(double x, double y) const;           ///< m
-  Eigen::Vector3d normal(double x, double y) const;  ///< unit, up; of the smooth ground
-  /// Of the smooth ground in the direction `yaw`, rad, uphill positive.
+  Eigen::Vector3d normal(double x, double y) const;  ///< unit, upward; of the smooth ground
+  /// Slope of the smooth ground in the direction `yaw`, rad, uphill positive.
   double slope(double x, double y, double yaw) const;
 
  private:
@@ -30,13 +30,13 @@ class RoughGround {
   Noise short_, long_;
 };
 
-/// How the axle lies above the ground when both wheels touch it.
+/// Pose of the axle with both wheels on the ground.
 struct AxleOnGround {
-  double height = 0.0;  ///< of its middle, m, in `world`
+  double height = 0.0;  ///< of its centre, m, in `world`
   double roll = 0.0;    ///< rad: of Rz(yaw) Ry(pitch) Rx(roll)
 };
 
-/// `middle`: horizontal place of the axle's middle, m.
+/// `middle`: horizontal position of the centre of the axle, m.
 AxleOnGround layOnGround(const RoughGround& ground, const Eigen::Vector2d& middle, double yaw, double pitch);
 
 }  // namespace urban_nav_sim

@@ -10,8 +10,8 @@
 namespace urban_nav_sim {
 namespace {
 
-constexpr double kSame = 0.05;         // m: nearer waypoints are one
-constexpr double kTurningRound = 1.9;  // rad: sharper corners are turned on the spot
+constexpr double kSame = 0.05;         // m: closer waypoints are merged
+constexpr double kTurningRound = 1.9;  // rad: larger turns are made on the spot
 
 std::vector<Waypoint> withoutRepeats(const std::vector<Waypoint>& all) {
   std::vector<Waypoint> some;
@@ -25,7 +25,7 @@ std::vector<Waypoint> withoutRepeats(const std::vector<Waypoint>& all) {
   return some;
 }
 
-// The waypoints in the order in which they are driven to, starting at the first.
+// Waypoints in the order of driving, starting at the first.
 class Order {
  public:
   explicit Order(std::vector<Waypoint> route) : route_(std::move(route)) {
@@ -66,7 +66,7 @@ RoutePath::RoutePath(const Route& route, double length) {
   points_.push_back(order.start().position);
   along_.push_back(0.0);
   speeds_.push_back(order.start().speed);
-  double pause = 0.0;  // where the robot starts, it stands anyway
+  double pause = 0.0;  // the robot is at rest at the start
   while (along_.back() < length) {
     const Waypoint to = order.next();
     const Eigen::Vector2d step = to.position - points_.back();

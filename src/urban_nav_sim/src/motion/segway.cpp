@@ -10,17 +10,17 @@ namespace urban_nav_sim {
 namespace {
 
 constexpr double kFallAcceleration = 9.81;  // m/s^2
-constexpr double kLength = 0.85;  // m: of the point pendulum that swings alike (computers, batteries and mast)
-constexpr double kMass = 0.60;    // m: of the centre of mass above the axle
+constexpr double kLength = 0.85;            // m: equivalent length of the pendulum (computers, batteries and mast)
+constexpr double kMass = 0.60;              // m: height of the centre of mass above the axle
 constexpr double kPole = 4.0, kDamping = 0.7;
-constexpr double kStiffness = kFallAcceleration + kPole * kPole * kLength;  // m/s^2 a rad
-constexpr double kBrake = 2.0 * kDamping * kPole * kLength;                 // m/s^2 a rad/s
-constexpr double kSpeedGain = 1.1;                                          // 1/s: (m/s^2) a (m/s) of missing speed
+constexpr double kStiffness = kFallAcceleration + kPole * kPole * kLength;  // m/s^2 per rad
+constexpr double kBrake = 2.0 * kDamping * kPole * kLength;                 // m/s^2 per rad/s
+constexpr double kSpeedGain = 1.1;                                          // 1/s: acceleration per error of speed
 constexpr double kMostLean = 0.09;                                          // rad: 0.9 m/s^2
 constexpr double kTurnLag = 0.18;                                           // s
 constexpr double kMostTurnChange = 3.0;                                     // rad/s^2
 
-// How far in front of the axle the wheel touches a slope, as the sine of the lean that brings the mass above it.
+// Offset of the contact point in front of the axle on a slope, as the sine of the lean that puts the mass above it.
 double wheelOffset(double slope) { return kWheelRadius / kMass * std::sin(slope); }
 
 }  // namespace
@@ -35,7 +35,7 @@ SegwayState standingSegway(const Eigen::Vector2d& position, double yaw, double s
 
 SegwayState stepSegway(const SegwayState& state, const SegwayCommand& command, const SegwayDisturbance& disturbance,
                        double dt) {
-  // The lean that would hold the acceleration; the stiffness has gravity to overcome first.
+  // The lean that maintains the acceleration; the stiffness must first overcome gravity.
   const double wanted =
       kSpeedGain * (command.speed - state.speed) / kFallAcceleration * (kStiffness - kFallAcceleration) / kStiffness;
   const double foot = wheelOffset(disturbance.slope);

@@ -16,11 +16,11 @@
 namespace urban_nav_sim {
 namespace {
 
-constexpr double kKnot = 0.02;     // s between the spline's control points
-constexpr int kDynamicsSteps = 4;  // of the dynamics between two of them
-constexpr double kMargin = 0.25;   // s before and after, within which the motion is defined
+constexpr double kKnot = 0.02;     // s between control points of the spline
+constexpr int kDynamicsSteps = 4;  // steps of the dynamics between two control points
+constexpr double kMargin = 0.25;   // s before and after the session for which the motion is defined
 
-// What ground and driver's weight do: at strength 1 and in motion the body sways by 0.3 deg.
+// Disturbances by the ground and the weight of the driver: at strength 1 and in motion the body sways by 0.3 deg.
 class Pushes {
  public:
   Pushes(double strength, const Noise& noise)
@@ -36,7 +36,7 @@ class Pushes {
   }
 
  private:
-  // What it does it undoes 0.45 s later: a lasting push would drive the robot away.
+  // Reversed 0.45 s later: a lasting push would displace the robot.
   static double sway(const Noise& noise, double t) {
     return std::clamp(smoothNoise(noise, t / 0.09) - smoothNoise(noise, t / 0.09 - 5.0), -3.0, 3.0);
   }

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Angular velocity in the body's axes from (yaw, pitch, roll), as columns for the three rates, and its derivative.
+// Matrix from the rates of (yaw, pitch, roll) to angular velocity in body axes, and its derivative.
 struct RateMap {
   Matrix3d map, change;
 };

@@ -6,10 +6,10 @@
 
 namespace urban_nav_sim {
 
-/// A motion whose six coordinates are one spline of time: place of the axle's middle (x, y, z, m), then yaw, pitch and
-/// roll (rad) of the body, R = Rz(yaw) Ry(pitch) Rx(roll). base_link is fixed to the body, a wheel's radius below the
-/// axle: it leaves the ground by under 2 mm while the body leans by 7 deg. Everything in MotionState is an exact
-/// derivative.
+/// A motion whose six coordinates are one spline of time: position of the centre of the axle (x, y, z, m), then yaw,
+/// pitch and roll (rad) of the body, R = Rz(yaw) Ry(pitch) Rx(roll). base_link is fixed to the body, one wheel radius
+/// below the axle: it leaves the ground by less than 2 mm while the body leans by 7 deg. All members of MotionState are
+/// exact derivatives.
 class SplineMotion final : public Motion {
  public:
   SplineMotion(TimeSpline coordinates, double duration);

@@ -11,17 +11,17 @@ namespace urban_nav_sim {
 namespace {
 
 constexpr double kArrived = 0.15;        // m before a stop
-constexpr double kWindow = 1.2;          // m of the way on which the robot may find itself next
-constexpr double kBetween = 0.02;        // m between the places on it that are compared
-constexpr double kBend = 1.5;            // m over which a bend is judged
+constexpr double kWindow = 1.2;          // m of the path searched for the next position of the robot
+constexpr double kBetween = 0.02;        // m between the compared positions on the path
+constexpr double kBend = 1.5;            // m over which curvature is measured
 constexpr double kBendTurn = 0.75;       // rad/s in a bend
 constexpr double kLeastBendSpeed = 0.3;  // m/s
 constexpr double kBraking = 0.45;        // m/s^2
-constexpr double kHaste = 0.65;          // m/s^2: change of the wanted speed
-constexpr double kLag = 0.4;             // s: delay between a command to slow down and its effect
-constexpr double kCreep = 0.14;          // m/s: turning round is done in a small arc
+constexpr double kHaste = 0.65;          // m/s^2: change of the desired speed
+constexpr double kLag = 0.4;             // s: delay of deceleration
+constexpr double kCreep = 0.14;          // m/s: the robot turns around on a small arc
 constexpr double kSteering = 2.2;        // 1/s
-constexpr double kNever = 1e9;           // m: where there is no stop any more
+constexpr double kNever = 1e9;           // m: no further stop
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * M_PI); }
 
@@ -35,14 +35,14 @@ SteeringModel::SteeringModel(const RoutePath& way, double start, double wander, 
       sideways_(hand.of("sideways")),
       haste_(hand.of("haste")) {}
 
-// After a stop the path continues straight, so that the robot arrives in its direction.
+// Beyond a stop the path continues straight, so that the robot arrives in its direction.
 Eigen::Vector2d SteeringModel::wantedPlace(double s, double stop) const {
   const double on_way = std::min(s, stop - 1e-6);
   const Eigen::Vector2d forward = way_.direction(on_way), left(-forward.y(), forward.x());
   return way_.at(on_way) + (s - on_way) * forward + wander_ * smoothNoise(sideways_, s / 3.0) * left;
 }
 
-// The nearest place of the way ahead, the later one where two are equally near (at a corner that is cut).
+// Finds the nearest position on the path ahead, the later of two equally near ones (at a cut corner).
 void SteeringModel::comeAlong(const SegwayState& state, double stop) {
   const double from = along_, to = std::min(from + kWindow, stop);
   double least = (way_.at(from) - state.position).norm();
@@ -86,7 +86,7 @@ SegwayCommand SteeringModel::steer(const SegwayState& state, double dt) {
   } else {
     comeAlong(state, stop);
     const Eigen::Vector2d to_stop = way_.at(stop) - state.position;
-    // The way may come by a stop's place before it is its turn.
+    // The path may pass the position of a stop before the stop is due.
     const bool near = along_ > stop - kWindow;
     if (near && (to_stop.norm() < kArrived || to_stop.dot(way_.direction(stop - 1e-6)) < 0.0)) {
       along_ = passed_ = stop;

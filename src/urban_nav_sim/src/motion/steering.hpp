@@ -7,16 +7,16 @@
 
 namespace urban_nav_sim {
 
-/// Who stands on the Segway: looks a step ahead on the way and steers for that place, slower where the way bends, to a
-/// halt where it stops or turns round. Deterministic; to be asked in the order of time.
+/// Driver of the Segway: steers for a point ahead on the path, slower in bends, and halts where the path stops or turns
+/// around. Deterministic; to be called in the order of time.
 class SteeringModel {
  public:
-  /// The way must outlive the driver. `wander`: m to the side (standard deviation). `start`: m along the way.
+  /// `way` must outlive this object. `wander`: lateral deviation, m (standard deviation). `start`: m along the path.
   SteeringModel(const RoutePath& way, double start, double wander, const Noise& hand);
 
-  /// What is wanted for the next `dt` seconds.
+  /// Returns the command for the next `dt` seconds.
   SegwayCommand steer(const SegwayState& state, double dt);
-  /// How far along the way it has come, m.
+  /// Returns the distance along the path, m.
   double along() const { return along_; }
 
  private:

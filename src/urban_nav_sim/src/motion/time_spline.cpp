@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kTaps = 6;
 
-// Row j: 120 times the weight of control point j on one piece, by powers of the way through it (de Boor's recursion
-// worked out for equal knots).
+// Row j: 120 times the weight of control point j on one segment, as coefficients of the powers of the local parameter
+// (de Boor's recursion for uniform knots).
 constexpr double kPowers[kTaps][kTaps] = {{1, -5, 10, -10, 5, -1},  {26, -50, 20, 20, -20, 5},
                                           {66, 0, -60, 0, 30, -10}, {26, 50, 20, -20, -20, 10},
                                           {1, 5, 10, 10, 5, -5},    {0, 0, 0, 0, 0, 1}};

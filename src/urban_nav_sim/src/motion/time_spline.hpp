@@ -13,16 +13,16 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 class TimeSpline {
  public:
   struct Value {
-    Vector6 value, rate, change;  ///< the functions, their first and their second derivatives by s
+    Vector6 value, rate, change;  ///< of the functions; first and second derivatives by s
   };
 
-  /// Control point i belongs to the time `first + i * step` (s). The curve does not pass through the points: it is
-  /// their polygon under a window of six steps (and equals it where it is straight). At least six.
+  /// Control point i belongs to the time `first + i * step` (s). The curve does not interpolate the points: it is their
+  /// polygon smoothed over six steps (and equals it where straight). At least six points.
   TimeSpline(double first, double step, std::vector<Vector6> control);
 
   double begin() const { return first_ + 2.0 * step_; }
   double end() const { return first_ + static_cast<double>(control_.size() - 3) * step_; }
-  /// Outside of begin() ... end() the last polynomial is extrapolated.
+  /// Extrapolates the outermost polynomial beyond begin() ... end().
   Value at(double t) const;
 
  private:

@@ -6,8 +6,8 @@
 
 namespace urban_nav_sim {
 
-/// Randomness by counting: a number is a function of what it is for (seed, stream, index), so it does not depend on who
-/// asks first or on how many threads there are. Mixing of splitmix64 (Steele et al. 2014, figure 1 and the variant 13).
+/// Counter-based random numbers: a number is a function of its seed, stream and index, hence independent of the order
+/// of calls and of the number of threads. Mixing of splitmix64 (Steele et al. 2014, figure 1 and variant 13).
 inline std::uint64_t hash(std::uint64_t x) {
   x += 0x9E3779B97F4A7C15ULL;
   x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ULL;
@@ -20,16 +20,16 @@ std::uint64_t hash(std::uint64_t x, std::uint64_t y, More... more) {
   return hash(hash(x) ^ y, static_cast<std::uint64_t>(more)...);
 }
 
-/// 0 <= u < 1, of the upper 53 bits.
+/// Returns 0 <= u < 1 from the upper 53 bits.
 inline double toUniform(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1.0p-53; }
 
-/// Mean 0, variance 1: Box and Muller of the number and its successor in the stream.
+/// Returns a standard normal number: Box and Muller of the number and its successor in the stream.
 inline double toNormal(std::uint64_t bits) {
   const double u = 1.0 - toUniform(bits), v = toUniform(hash(bits));
   return std::sqrt(-2.0 * std::log(u)) * std::cos(6.283185307179586 * v);
 }
 
-/// A stream of such numbers, for code that draws one after another. Not shared by threads.
+/// A sequential stream of such numbers. Not thread-safe.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : seed_(seed) {}

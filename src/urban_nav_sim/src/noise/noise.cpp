@@ -7,7 +7,7 @@
 namespace urban_nav_sim {
 namespace {
 
-constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio, odd
+constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15U;  // 2^64 divided by the golden ratio, odd
 
 // FNV-1a (Fowler, Noll, Vo).
 std::uint64_t hashName(std::string_view name) {
@@ -18,7 +18,7 @@ std::uint64_t hashName(std::string_view name) {
 
 int changesOfBits(std::uint64_t x) { return __builtin_popcountll(x ^ (x >> 1)); }
 
-// ln u for 0 < u < 1: u = m 2^e with m about 1, ln m = 2 artanh((m - 1) / (m + 1)) by its series, to the last bits.
+// ln u for 0 < u < 1: u = m 2^e with m about 1, ln m = 2 artanh((m - 1) / (m + 1)) by its series, to full precision.
 double logarithm(double u) {
   int exponent = 0;
   double m = std::frexp(u, &exponent);
@@ -32,7 +32,7 @@ double logarithm(double u) {
   return 2.0 * s * sum + exponent * 0.69314718055994531;
 }
 
-// cos(2 pi v) for 0 <= v < 1: an eighth of a turn about the nearest quarter, by Taylor's series, to the last bits.
+// cos(2 pi v) for 0 <= v < 1: Taylor series within an eighth of a turn of the nearest quarter, to full precision.
 double cosineOfTurn(double v) {
   const auto quarter = std::lround(v * 4.0);
   const double x = 6.2831853071795865 * (v - 0.25 * static_cast<double>(quarter)), x2 = x * x;
@@ -55,7 +55,7 @@ double normalFrom(std::uint64_t bits) {
 
 Noise::Noise(std::uint64_t seed, std::uint64_t number)
     : start_(mixed(mixed(seed + kGolden) + number * kGolden)), step_(mixed(start_ + kGolden) | 1U) {
-  // Steps whose bits hardly alternate mix badly (section 4.3 there).
+  // Steps whose bits rarely alternate mix poorly (section 4.3).
   if (changesOfBits(step_) < 24) step_ ^= 0xaaaaaaaaaaaaaaaaU;
 }
 

@@ -7,46 +7,46 @@
 
 namespace urban_nav_sim {
 
-/// Mean 0, variance 1, normal to the resolution of 32 bits: |value| at most 6.8 (Box and Muller 1958, one of the two),
-/// of 64 even bits.
+/// Returns a standard normal number at a resolution of 32 bits: |value| at most 6.8 (Box and Muller 1958, one of the
+/// two), from 64 uniform bits.
 double normalFrom(std::uint64_t bits);
 
-/// A stream of random numbers as a function of a counter: no state, so any thread may ask for any number in any order,
-/// and asking twice gives the same. Streams are distinguished by a seed and a name (or number); those of one seed are
-/// independent of each other. Only whole numbers and + - * / sqrt on doubles are used, never a function of libm, so the
-/// bits are the same on every machine.
+/// A stream of random numbers as a function of a counter: stateless, so any thread may read any number in any order,
+/// repeatably. Streams are distinguished by a seed and a name (or number); those of one seed are independent of each
+/// other. Only integers and + - * / sqrt of doubles are used, no function of libm, so the bits are the same on every
+/// machine.
 ///
 ///   const Noise noise(seed, "laser_left");
 ///   range += 0.005 * noise.of(scan).normal(beam);
 ///
-/// The bits are SplitMix's (Steele, Lea, Flood, Fast splittable pseudorandom number generators, OOPSLA 2014): a Weyl
-/// sequence with an odd step of the stream's own, mixed by Stafford's variant 13.
+/// The bits are those of SplitMix (Steele, Lea, Flood, Fast splittable pseudorandom number generators, OOPSLA 2014): a
+/// Weyl sequence with an odd step for each stream, mixed by Stafford's variant 13.
 class Noise {
  public:
   Noise(std::uint64_t seed, std::string_view name);
   Noise(std::uint64_t seed, std::uint64_t number);
 
-  /// A stream of its own below this one. Cheap enough for one in every row, beam or second.
+  /// Returns a substream. Cheap enough for every row, beam or second.
   Noise of(std::uint64_t number) const;
   Noise of(std::string_view name) const;
 
-  /// 64 even bits.
+  /// Returns 64 uniform bits.
   std::uint64_t bits(std::uint64_t counter) const { return mixed(start_ + counter * step_); }
-  /// Even in [0, 1), in steps of 2^-53.
+  /// Returns a uniform number in [0, 1), in steps of 2^-53.
   double uniform(std::uint64_t counter) const { return static_cast<double>(bits(counter) >> 11) * 0x1.0p-53; }
   double uniform(std::uint64_t counter, double low, double high) const { return low + (high - low) * uniform(counter); }
-  /// Even among 0 ... count - 1; `count` from 1 to 2^32.
+  /// Returns a uniform integer 0 ... count - 1; `count` from 1 to 2^32.
   std::uint64_t below(std::uint64_t counter, std::uint64_t count) const {
     return ((bits(counter) >> 32) * count) >> 32;
   }
-  /// True with this probability.
+  /// Returns true with this probability.
   bool chance(std::uint64_t counter, double probability) const { return uniform(counter) < probability; }
   /// normalFrom(bits(counter)).
   double normal(std::uint64_t counter) const { return normalFrom(bits(counter)); }
-  /// Three that are independent; a counter here shares nothing with the same counter of `normal`.
+  /// Returns three independent numbers, also independent of `normal` at the same counter.
   Eigen::Vector3d normal3(std::uint64_t counter) const;
-  /// The sum of the eight bytes, scaled: mean 0, variance 1, steps of 1/209, |value| at most 4.9, fourth moment 2.85
-  /// where a normal one has 3. For pixels, five times as fast as `normal`.
+  /// Returns the scaled sum of the eight bytes: mean 0, variance 1, steps of 1/209, |value| at most 4.9, fourth moment
+  /// 2.85 (normal: 3). For pixels, five times as fast as `normal`.
   float roughNormal(std::uint64_t counter) const;
 
  private:

@@ -5,8 +5,8 @@
 
 namespace urban_nav_sim {
 
-/// Noise that changes slowly: one normal number at every whole `x` (and `y`) under cubic B-splines, so twice
-/// differentiable with hardly anything above half a cycle per unit. Mean 0 and, over many places, variance 1; |x| <
+/// Returns band-limited noise: a cubic B-spline with one normal coefficient at every integer `x` (and `y`), hence twice
+/// differentiable with little power above half a cycle per unit. Mean 0 and, over many positions, variance 1; |x| <
 /// 2^31.
 double smoothNoise(const Noise& noise, double x);
 double smoothNoise(const Noise& noise, double x, double y);

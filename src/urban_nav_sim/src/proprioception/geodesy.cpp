@@ -13,7 +13,7 @@ constexpr double kMajor = 6378137.0, kFlattening = 1.0 / 298.257223563;  // WGS 
 constexpr double kSquaredEccentricity = kFlattening * (2.0 - kFlattening);
 constexpr double kRadian = M_PI / 180.0;
 
-// From the ellipsoid's normal at a latitude to the axis, m.
+// Returns the distance from the ellipsoid to the axis along the normal at a latitude, m.
 double normalRadius(double sine) { return kMajor / std::sqrt(1.0 - kSquaredEccentricity * sine * sine); }
 
 Vector3d toEarth(const Geodetic& place) {
@@ -24,7 +24,7 @@ Vector3d toEarth(const Geodetic& place) {
           (n * (1.0 - kSquaredEccentricity) + place.altitude) * std::sin(latitude)};
 }
 
-// The latitude by fixed point: it gains two digits and a half a round near the ground.
+// Latitude by fixed-point iteration, which gains 2.5 digits per iteration near the ground.
 Geodetic fromEarth(const Vector3d& p) {
   const double out = p.head<2>().norm();
   double latitude = std::atan2(p.z(), out * (1.0 - kSquaredEccentricity)), altitude = 0.0;

@@ -11,11 +11,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPatch = 20.0;          // m over which the sky opens or closes
-constexpr double kNoFix = 0.8;           // of the sky hidden
+constexpr double kPatch = 20.0;          // m over which the visible sky changes
+constexpr double kNoFix = 0.8;           // share of the sky hidden
 constexpr double kSlowTime = 180.0;      // s
 constexpr double kMultipathTime = 20.0;  // s
-const Vector3d kAxes(1.0, 1.0, 2.0);     // satellites are above, never below: heights are twice as bad
+const Vector3d kAxes(1.0, 1.0, 2.0);     // satellites are only above: vertical errors are twice as large
 
 }  // namespace
 
@@ -37,7 +37,7 @@ Gps::Gps(const Motion& motion, const urban_nav_core::Pose& T_base_gps, const Gps
       multipath_(noise.of("multipath")),
       slow_(RandomWalk::drawnBack(options.slow_sigma, kSlowTime, motion.duration(), noise.of("slow"))) {}
 
-// 0: all of the sky is open, 1: none.
+// Returns the hidden share of the sky, 0 ... 1.
 double Gps::hiddenSky(double t) const {
   const Vector3d place = motion_.at(t).T_world_base.t() / kPatch;
   return std::clamp(0.5 + 0.3 * smoothNoise(sky_, place.x(), place.y()), 0.0, 1.0);
@@ -62,7 +62,8 @@ GpsMeasurement Gps::fix(std::int64_t k) const {
   measured.latitude = place.latitude;
   measured.longitude = place.longitude;
   measured.altitude = place.altitude;
-  // Receivers know the geometry of their satellites, not the walls: half of the multipath is in what they state.
+  // Receivers know the geometry of their satellites but not the walls: their stated error contains half of the
+  // multipath.
   measured.sigma = std::max(std::hypot(options_.slow_sigma, options_.white_sigma, 0.5 * reflected), 0.01) * kAxes;
   measured.velocity = motion_state.velocity_world +
                       motion_state.T_world_base.q() * motion_state.rate_base.cross(T_base_gps_.t()) +

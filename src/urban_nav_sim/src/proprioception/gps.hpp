@@ -9,26 +9,26 @@
 
 namespace urban_nav_sim {
 
-/// Errors of a cheap receiver among buildings. All zero: it measures the truth.
+/// Errors of a low-cost receiver among buildings. All zero: the measurement is exact.
 struct GpsOptions {
-  Geodetic origin = kOxford;     ///< where the origin of `world` is, x east, y north
-  double slow_sigma = 1.5;       ///< m a horizontal axis, over minutes: orbits, clocks, ionosphere; twice that upwards
+  Geodetic origin = kOxford;     ///< origin of `world`, x east, y north
+  double slow_sigma = 1.5;       ///< m per horizontal axis, over minutes: orbits, clocks, ionosphere; vertically twice
   double white_sigma = 0.3;      ///< m, from fix to fix
-  double multipath_sigma = 4.0;  ///< m where the sky is half hidden; changes within some 20 s
-  bool gaps = true;              ///< no fix where too little sky is seen, which is at one place in six
+  double multipath_sigma = 4.0;  ///< m where half of the sky is hidden; correlated over about 20 s
+  bool gaps = true;              ///< no fix where too little sky is visible: at one position in six
   double velocity_sigma = 0.08;  ///< m/s
 };
 GpsOptions perfectGps();
 
-/// A receiver on the robot. Walls are not asked for: how much sky is hidden is a slow function of the place (some 20
-/// m), the same on every pass. Immutable, so thread-safe; the motion must outlive it.
+/// A receiver on the robot. Walls are not traced: the hidden share of the sky is a slowly varying function of position
+/// (about 20 m), the same on every pass. Immutable, so thread-safe; the motion must outlive it.
 class Gps {
  public:
   Gps(const Motion& motion, const urban_nav_core::Pose& T_base_gps, const GpsOptions& options, const Clock& clock,
       const Noise& noise);
 
-  /// Fix k = 0, 1, ..., taken at sensorSchedule(Sensor::Gps).at(k). Without a fix the place is that of the
-  /// last one (the origin before the first), the velocity zero and sigma 1 km.
+  /// Fix k = 0, 1, ..., taken at sensorSchedule(Sensor::Gps).at(k). Without a fix the position is that of
+  /// the last one (the origin before the first), the velocity zero and sigma 1 km.
   GpsMeasurement at(std::int64_t k) const;
 
  private:

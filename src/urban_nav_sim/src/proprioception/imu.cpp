@@ -21,7 +21,7 @@ ImuOptions perfectImu() {
 
 namespace {
 
-/// Three numbers, each even within +-`largest`.
+/// Returns three numbers, each uniform within +-`largest`.
 Vector3d evenWithin(double largest, const Noise& noise) {
   return {noise.uniform(0, -largest, largest), noise.uniform(1, -largest, largest),
           noise.uniform(2, -largest, largest)};
@@ -87,7 +87,7 @@ ImuMeasurement Imu::at(std::int64_t k) const {
   const double t = schedule_.at(k);
   const auto counter = static_cast<std::uint64_t>(k);
   ImuMeasurement measured = truth(t);
-  // White noise of a density, averaged over a period, has the density times the root of the rate.
+  // White noise averaged over a period has the standard deviation density times the root of the rate.
   const double per_sample = 1.0 / std::sqrt(schedule_.period);
   measured.stamp = clock_.stamp(k, t);
   measured.rate = rate_matrix_ * measured.rate;

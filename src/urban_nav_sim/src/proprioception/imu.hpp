@@ -12,30 +12,30 @@ namespace urban_nav_sim {
 
 constexpr double kGravity = 9.81;  ///< m/s^2, along -z of `world`
 
-/// Mistakes of a driver with measurements that are right.
+/// Mistakes of a driver; the measurements themselves are correct.
 struct ImuMistakes {
-  bool exchanges_axes = false;   ///< x and y
+  bool exchanges_axes = false;   ///< exchanges x and y
   bool uses_degrees = false;     ///< rates in deg/s
   bool is_ned = false;           ///< axes forward, right, down
-  bool removes_gravity = false;  ///< accelerations of the sensor in place of specific forces
+  bool removes_gravity = false;  ///< reports accelerations instead of specific forces
 };
 
-/// Errors of an XSens MTi (its data sheet). All zero: it measures the truth. Rates and forces are M x true + bias +
-/// noise, with a constant matrix M each.
+/// Errors of an XSens MTi (data sheet). All zero: the measurement is exact. Rates and forces are M x true + bias +
+/// noise, each with a constant matrix M.
 struct ImuOptions {
   double rate_density = 0.1 * M_PI / 180.0;                ///< rad/s/sqrt(Hz)
-  double rate_bias = 0.2 * M_PI / 180.0;                   ///< rad/s, standard deviation at the start
+  double rate_bias = 0.2 * M_PI / 180.0;                   ///< rad/s, initial standard deviation
   double rate_walk = 20.0 / 3600.0 * M_PI / 180.0 / 60.0;  ///< rad/s/sqrt(s): 20 deg/h after an hour
   double force_density = 1e-3;                             ///< m/s^2/sqrt(Hz)
-  double force_bias = 0.02;                                ///< m/s^2, drifts within this standard deviation
+  double force_bias = 0.02;                                ///< m/s^2, standard deviation of the drifting bias
   double force_bias_time = 600.0;                          ///< s, time constant of that drift
   double rate_offset = 0.0;         ///< rad/s, largest constant bias of an axis, added to rate_bias
   double force_offset = 0.0;        ///< m/s^2, largest constant bias of an axis, added to force_bias
-  double scale_sigma = 0.0;         ///< of each axis, constant
-  double axes_sigma = 0.0;          ///< rad, of each axis towards each other one, constant
-  double field_sigma = 5e-8;        ///< T, of one measurement
-  double field_bias = 1e-6;         ///< T, of the robot's own iron
-  double field_disturbance = 3e-6;  ///< T, of iron in walls and ground, over some 5 m
+  double scale_sigma = 0.0;         ///< scale error of each axis, constant
+  double axes_sigma = 0.0;          ///< rad, misalignment of each axis towards each other one, constant
+  double field_sigma = 5e-8;        ///< T, noise of one measurement
+  double field_bias = 1e-6;         ///< T, of the iron of the robot
+  double field_disturbance = 3e-6;  ///< T, of iron in walls and ground, correlated over about 5 m
   ImuMistakes mistakes;
 };
 ImuOptions perfectImu();
@@ -52,13 +52,13 @@ class Imu {
 
   /// Measurement k = 0, 1, ..., taken at sensorSchedule(Sensor::Imu).at(k), in the axes of imu_link.
   ImuMeasurement at(std::int64_t k) const;
-  /// Biases at a time of the session, axes of imu_link: rad/s, m/s^2.
+  /// Biases at a time of the session in the axes of imu_link: rad/s, m/s^2.
   Eigen::Vector3d rateBias(double t) const { return rate_bias_.at(t) + rate_offset_; }
   Eigen::Vector3d forceBias(double t) const { return force_bias_.at(t) + force_offset_; }
-  /// Scale and axis errors: M of the gyroscope and of the accelerometer.
+  /// Matrices M of scale and axis errors of gyroscope and accelerometer.
   const Eigen::Matrix3d& rateMatrix() const { return rate_matrix_; }
   const Eigen::Matrix3d& forceMatrix() const { return force_matrix_; }
-  /// Without any error, at any time of the motion; the stamp is left out.
+  /// Returns the exact measurement at any time of the motion, without stamp.
   ImuMeasurement truth(double t) const;
 
  private:

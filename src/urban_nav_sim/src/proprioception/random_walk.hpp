@@ -8,12 +8,12 @@
 
 namespace urban_nav_sim {
 
-/// Three values that drift independently: a normal start, then a walk whose variance grows by `walk`^2 a second, or,
-/// with a time constant, one that is drawn back and keeps the variance of its start (first-order Gauss-Markov). A node
-/// a second, straight between them. Immutable, so thread-safe.
+/// Three independent drifting values: a normal initial value, then a walk whose variance grows by `walk`^2 per second,
+/// or, with a time constant, a first-order Gauss-Markov process of constant variance. One node per second, linear
+/// between nodes. Immutable, so thread-safe.
 class RandomWalk {
  public:
-  /// `duration`: up to which time (s) it is asked; later ones give the last value.
+  /// `duration`: s; later times give the last value.
   static RandomWalk free(double start_sigma, double walk, double duration, const Noise& noise);
   static RandomWalk drawnBack(double sigma, double time_constant, double duration, const Noise& noise);
 

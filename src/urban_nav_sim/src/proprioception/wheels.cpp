@@ -10,7 +10,7 @@
 namespace urban_nav_sim {
 namespace {
 
-constexpr int kWheelSteps = 9;  // between two measurements: 4 ms, in which speeds hardly change
+constexpr int kWheelSteps = 9;  // between two measurements: 4 ms, in which speeds are nearly constant
 constexpr double kCountsPerMetre = 33215.0, kCountsPerSpeed = 332.0, kCountsPerTurn = 7.8 * 180.0 / M_PI;
 
 struct Rolling {

@@ -40,7 +40,7 @@ std::vector<Facet> makeFacets(const Part& part, std::uint32_t index) {
     facet.at = at.cast<float>();
     facet.part = index;
     if (area2 > 0.0) {
-      // The vectors dual to the edges within the plane: p = s ab + t ac has s = to_b . p, t = to_c . p.
+      // Dual basis of the edges in the plane: p = s ab + t ac has s = to_b . p, t = to_c . p.
       const Eigen::Vector3d to_b = ac.cross(across) / area2, to_c = across.cross(ab) / area2;
       facet.normal = (across / std::sqrt(area2)).cast<float>();
       facet.per_s = (to_b * st_b.x() + to_c * st_c.x()).cast<float>();

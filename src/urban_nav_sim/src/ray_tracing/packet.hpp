@@ -6,15 +6,15 @@
 
 namespace urban_nav_sim {
 
-/// Rays are traced in packets of so many; those of a packet should go much the same way.
+/// Number of rays in a packet; rays of a packet should be coherent.
 constexpr int kLanes = 16;
 
-/// Rays in `world`. Lanes whose bit in `active` is not set are left alone.
+/// Rays in `world`. Lanes whose bit in `active` is not set are ignored.
 struct alignas(64) Packet {
   float origin[3][kLanes];     ///< m
-  float direction[3][kLanes];  ///< of any length: distances are in units of it
+  float direction[3][kLanes];  ///< of any length, which is the unit of distances
   float far[kLanes];           ///< no hit at or beyond it
-  float time[kLanes];          ///< 0 ... 1 from the beginning to the end of the Snapshot
+  float time[kLanes];          ///< 0 ... 1 from the start to the end of the Snapshot
   std::uint32_t active = 0;    ///< bit i: lane i
 
   void setOrigin(int lane, const Eigen::Vector3f& o) {
@@ -29,11 +29,11 @@ struct alignas(64) Packet {
 
 constexpr std::uint32_t kNothing = 0xffffffffU;
 
-/// What a packet met first.
+/// First hits of a packet.
 struct alignas(64) Hits {
-  float distance[kLanes];       ///< in lengths of the direction; not yet refined (Snapshot::surfaceAt refines it)
+  float distance[kLanes];       ///< in lengths of the direction; refined by Snapshot::surfaceAt
   std::uint32_t facet[kLanes];  ///< index of Tracer::facets(), or kNothing
-  std::uint32_t mover[kLanes];  ///< index of World::movers, or kNothing for what stands still
+  std::uint32_t mover[kLanes];  ///< index of World::movers, or kNothing for static objects
 };
 
 }  // namespace urban_nav_sim

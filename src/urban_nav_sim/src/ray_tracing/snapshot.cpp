@@ -14,7 +14,8 @@ namespace {
 using RayHits = RTCRayHit16;
 static_assert(kLanes == 16, "the calls below are those for sixteen rays");
 
-/// Embree 3.13 loops for ever on some coherent packets of which few lanes are active: coherent are full ones alone.
+/// Embree 3.13 does not terminate on some coherent packets with few active lanes: only full packets are flagged
+/// coherent.
 RTCIntersectContext makeContext(std::uint32_t active) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -45,10 +46,10 @@ void setTransform(RTCGeometry instance, unsigned step, const urban_nav_core::Pos
   rtcSetGeometryTransform(instance, step, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix.data());
 }
 
-/// Where a mover has gone to, for Embree: it mixes the matrices of both ends, and those of a walker who turns on the
-/// spot cancel each other. Such a one keeps facing as it did.
+/// Returns the final pose of a mover for Embree, which interpolates the matrices of both ends; those of a walker who
+/// turns on the spot would cancel, so its rotation is kept.
 urban_nav_core::Pose shortestTurnEnd(const urban_nav_core::Pose& begin, const urban_nav_core::Pose& end) {
-  constexpr double kAbout = 1.0;  // rad: a car in a bend turns by a hundredth of it
+  constexpr double kAbout = 1.0;  // rad: a car in a bend rotates by a hundredth of it
   return angleBetween(begin, end) > kAbout ? urban_nav_core::Pose(begin.q(), end.t()) : end;
 }
 
@@ -111,7 +112,7 @@ std::uint32_t Snapshot::occluded(const Packet& rays) const {
   RTCIntersectContext context = makeContext(0);
   rtcOccluded16(valid, tracer_.still_.scene.get(), &context, &query);
   std::uint32_t met = 0;
-  // Embree marks a ray that met something by a `far` of minus infinity.
+  // Embree marks an occluded ray by a `far` of minus infinity.
   const auto collect = [&] {
     for (int i = 0; i < kLanes; ++i) {
       if (valid[i] != 0 && query.tfar[i] < 0.0F) {
@@ -143,7 +144,7 @@ SurfacePoint Snapshot::surfaceAt(const Hits& hits, int lane, const Packet& rays,
   const Eigen::Matrix3f R_mover_world =
       moves ? Eigen::Matrix3f(T_world_mover.R().transpose().cast<float>()) : Eigen::Matrix3f::Identity();
 
-  // In the frame of the part; its plane in double precision, since Embree's distance is good to 1e-7 of the
+  // In the frame of the part; plane in double precision, since the distance of Embree is accurate to 1e-7 of the
   // coordinates.
   Eigen::Vector3d origin = rays.laneOrigin(lane).cast<double>();
   Eigen::Vector3d direction = rays.beamDirection(lane).cast<double>();
@@ -155,7 +156,7 @@ SurfacePoint Snapshot::surfaceAt(const Hits& hits, int lane, const Packet& rays,
   const double along = normal.dot(direction);
   const auto traced = static_cast<double>(hits.distance[lane]);
   double distance = normal.dot(facet.corner.cast<double>() - origin) / along;
-  // Seen edge on, the plane says nothing.
+  // At grazing incidence the plane is not informative.
   if (!(std::abs(distance - traced) < 1e-3 * (1.0 + traced))) distance = traced;
 
   SurfacePoint point;
@@ -167,7 +168,7 @@ SurfacePoint Snapshot::surfaceAt(const Hits& hits, int lane, const Packet& rays,
   point.spot.at = facet.textureAt(place);
   point.spot.seed = part.seed;
   point.spot.wet = tracer_.world_.day.wet;
-  // Where the neighbouring rays meet the same plane, to first order (Igehy 1999, eq. 10-12).
+  // Intersections of the neighbouring rays with the same plane, to first order (Igehy 1999, eq. 10-12).
   const double safe_along = std::copysign(std::max(std::abs(along), 1e-6), along);
   const auto step = [&](const Eigen::Vector3f& change) {
     const Eigen::Vector3f local = moves ? Eigen::Vector3f(R_mover_world * change) : change;

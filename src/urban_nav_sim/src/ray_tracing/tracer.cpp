@@ -13,7 +13,7 @@
 
 namespace urban_nav_sim {
 
-/// What the filter functions need to know of a part with holes.
+/// Data of the filter functions for a part with holes.
 struct Tracer::CutOut {
   const std::vector<Facet>* facets;
   std::uint32_t first_facet;
@@ -24,7 +24,7 @@ struct Tracer::CutOut {
 
 namespace {
 
-/// Called by Embree for candidates on parts with holes: those in a hole do not count.
+/// Called by Embree for candidate hits on parts with holes: hits in a hole are rejected.
 template <typename CutOut>
 void leaveOutHoles(const RTCFilterFunctionNArguments* args) {
   const auto& cut = *static_cast<const CutOut*>(args->geometryUserPtr);
@@ -55,8 +55,8 @@ void Release::operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }
 
 Tracer::Tracer(const World& world) : world_(world), device_(rtcNewDevice(nullptr)) {
   if (device_ == nullptr) throw urban_nav_core::UserError("ray tracer", "Embree does not start", "");
-  // Which of two triangles at one distance is met depends on the tree, and a tree built by several threads on their
-  // number.
+  // Of two triangles at one distance the tree determines the one hit, and a tree built by several threads depends on
+  // their number.
   const urban_nav_core::ThreadLimit one(1);
   std::size_t triangles = 0;
   for (const Part& part : world.parts) triangles += part.triangles.size();

@@ -15,7 +15,7 @@ struct RTCSceneTy;
 
 namespace urban_nav_sim {
 
-/// Embree counts who holds its things; this gives one back.
+/// Releases a reference-counted object of Embree.
 struct Release {
   void operator()(RTCDeviceTy* device) const;
   void operator()(RTCGeometryTy* geometry) const;
@@ -24,9 +24,8 @@ struct Release {
 template <typename Thing>
 using Held = std::unique_ptr<Thing, Release>;
 
-/// What rays can meet: the triangles of a world in Embree's trees, those that stand still in one, and one for each
-/// mover. Embree is named in the sources of this folder alone. Immutable once built, so thread-safe; `world` must
-/// outlive it.
+/// The triangles of a world in trees of Embree: one for static parts and one for each mover. Only the sources of this
+/// folder refer to Embree. Immutable once built, so thread-safe; `world` must outlive it.
 class Tracer {
  public:
   explicit Tracer(const World& world);
@@ -34,7 +33,7 @@ class Tracer {
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
 
-  /// What all triangles of a part share.
+  /// Properties shared by all triangles of a part.
   struct PartAppearance {
     const Material* material;
     std::uint32_t seed;
@@ -50,7 +49,7 @@ class Tracer {
   struct CutOut;
   struct Group {  ///< one tree
     Held<RTCSceneTy> scene;
-    std::vector<std::uint32_t> first_facet;  ///< of each of its geometries
+    std::vector<std::uint32_t> first_facet;  ///< index for each geometry
   };
   Group buildGroup(const std::vector<Part>& parts);
 
@@ -63,18 +62,18 @@ class Tracer {
   std::vector<std::unique_ptr<CutOut>> cut_outs_;
 };
 
-/// A point of a surface that a ray has met.
+/// Point of a surface hit by a ray.
 struct SurfacePoint {
   double distance = 0.0;                               ///< in lengths of the direction, refined in double precision
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< m, in `world`
-  Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();   ///< unit, in `world`, towards where the ray came from
-  MaterialSample spot;                                 ///< for lookAt
+  Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();   ///< unit, in `world`, towards the origin of the ray
+  MaterialSample spot;                                 ///< argument of lookAt
   const Material* material = nullptr;
   SurfaceClass surface_class = SurfaceClass::Other;
 };
 
-/// The world from t_begin to t_end (s, of the session), short enough that movers go straight between.
-/// Immutable, so thread-safe; the tracer must outlive it. Results do not depend on the number of threads.
+/// The world from t_begin to t_end (s of the session), short enough for linear motion of movers. Immutable, so
+/// thread-safe; the tracer must outlive it. Results do not depend on the number of threads.
 class Snapshot {
  public:
   Snapshot(const Tracer& tracer, double t_begin, double t_end);
@@ -83,13 +82,13 @@ class Snapshot {
 
   const Tracer& tracer() const { return tracer_; }
 
-  /// The first thing on each active lane.
+  /// Finds the first hit of each active lane.
   void closest(const Packet& rays, Hits& hits) const;
-  /// Bit i: something is on active lane i before its `far`.
+  /// Returns bit i set if active lane i has a hit before its `far`.
   std::uint32_t occluded(const Packet& rays) const;
 
-  /// A hit that is not kNothing, refined. `right` and `down`: by how much the direction changes to the neighbouring
-  /// rays.
+  /// Returns the refined point of a hit other than kNothing. `right` and `down`: change of the direction to the
+  /// neighbouring rays.
   SurfacePoint surfaceAt(const Hits& hits, int lane, const Packet& rays, const Eigen::Vector3f& right,
                          const Eigen::Vector3f& down) const;
 
@@ -98,7 +97,7 @@ class Snapshot {
 
   const Tracer& tracer_;
   double t_begin_, t_end_;
-  Held<RTCSceneTy> scene_;                           ///< of the movers; none: null
+  Held<RTCSceneTy> scene_;                           ///< of the movers; null without movers
   std::vector<urban_nav_core::Pose> T_world_mover_;  ///< at t_begin
 };
 

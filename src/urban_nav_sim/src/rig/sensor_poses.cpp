@@ -19,9 +19,9 @@ constexpr double kHalfBaseline = 0.0600025;          // m
 constexpr double kLadybugHeight = 1.4;               // m
 constexpr double kLidarHeight = 1.75;                // m
 constexpr double kLadybugRadius = 0.04;              // m, of the ring of lenses
-constexpr double kBetweenLenses = 2.0 * M_PI / 5.0;  // rad, clockwise seen from above
+constexpr double kBetweenLenses = 2.0 * M_PI / 5.0;  // rad, clockwise from above
 
-/// Axes of an optical frame that looks along `yaw` (rad, from x to y) on the level.
+/// Returns the axes of an optical frame with horizontal axis along `yaw` (rad, from x to y).
 Matrix3d looking(double yaw) {
   Matrix3d R;
   R << std::sin(yaw), 0.0, std::cos(yaw), -std::cos(yaw), 0.0, std::sin(yaw), 0.0, -1.0, 0.0;
@@ -39,7 +39,7 @@ std::map<std::string, Pose> sensorPlaces() {
     places[frames::ladybugCamera(i)] =
         Pose(looking(yaw), Vector3d(kLadybugRadius * std::cos(yaw), kLadybugRadius * std::sin(yaw), kLadybugHeight));
   }
-  // x along the middle beam, z forward: the scan planes stand upright and across the direction of travel.
+  // x along the middle beam, z forward: the scan planes are vertical and perpendicular to the direction of travel.
   Matrix3d left, right;
   left << 0, 0, 1, 1, 0, 0, 0, 1, 0;
   right << 0, 0, 1, -1, 0, 0, 0, -1, 0;

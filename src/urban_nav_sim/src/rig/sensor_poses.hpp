@@ -8,13 +8,13 @@
 
 namespace urban_nav_sim {
 
-/// Where the sensors are on base_link, by the names of their frames (docs/conventions.md): the paper's robot, as
-/// launch/urdf/lisa.urdf describes it. The lasers' places are those of the New College set, the others plausible.
+/// Returns the poses of the sensors on base_link by the names of their frames (docs/conventions.md): the robot of the
+/// paper, as in launch/urdf/lisa.urdf. The poses of the lasers are those of the New College set, the others plausible.
 std::map<std::string, urban_nav_core::Pose> sensorPlaces();
 urban_nav_core::Pose sensorPose(const std::string& frame);
-/// T_base_lidar of the 3D LiDAR, which only robots that ask for it carry: above the Ladybug, x forward, z up.
+/// Returns T_base_lidar of the optional 3D LiDAR: above the Ladybug, x forward, z up.
 urban_nav_core::Pose lidarPose();
-/// T_base_head of the Ladybug: x forward, z up, in the middle of its ring of lenses.
+/// Returns T_base_head of the Ladybug: x forward, z up, at the centre of its ring of lenses.
 urban_nav_core::Pose ladybugPlace();
 
 }  // namespace urban_nav_sim

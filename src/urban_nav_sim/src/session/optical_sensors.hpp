@@ -17,8 +17,8 @@
 
 namespace urban_nav_sim {
 
-/// The cameras and lasers of a session: all that sends rays into the world. Measurements of one device are asked for in
-/// their order; with each come the views of it that the session wants. Not thread-safe (each works on all threads);
+/// The cameras and lasers of a session: all sensors that trace rays. Measurements of one device must be requested in
+/// order; each comes with the views of it that the session requests. Not thread-safe (each call uses all threads);
 /// world and motion must outlive it.
 class OpticalSensors {
  public:

@@ -197,7 +197,7 @@ std::map<std::string, Pose> Session::places() const {
     places[urban_nav_core::frames::kLidar3d] = lidarPose();
   const StereoImages images = stereoImages(implementation_->options().defects);
   if (images == StereoImages::Rectified) return places;
-  // Raw images are those of the cameras as they are mounted: camera_info's R turns them into the rectified pair.
+  // Raw images are in the mounted orientation of the cameras: R of camera_info rotates them to the rectified pair.
   const std::array<Camera, 2> cameras = bumblebee(images);
   const char* const frames[] = {urban_nav_core::frames::kStereoLeft, urban_nav_core::frames::kStereoRight};
   for (std::size_t i = 0; i < cameras.size(); ++i)

@@ -8,7 +8,7 @@ namespace urban_nav_sim {
 namespace {
 
 constexpr double kDataSheetError = 0.035;  // m: data sheet of the LMS291
-// The largest of the IMUs and bases that users connect: EuRoC's gyroscope has 0.08 rad/s.
+// Largest errors of IMUs and bases in use: the gyroscope of EuRoC has 0.08 rad/s.
 constexpr double kRateOffset = 0.1 / 1.7320508, kForceOffset = 0.2;  // rad/s, m/s^2, of each axis
 constexpr double kImuScale = 5e-3, kImuAxes = 0.2 * M_PI / 180.0;    // standard deviations
 constexpr double kWheelScale = 0.03, kLongestDelay = 0.05;           // share; s

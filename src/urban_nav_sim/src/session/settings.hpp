@@ -14,7 +14,7 @@
 
 namespace urban_nav_sim {
 
-// Settings that give the devices these defects and no others.
+// Settings with exactly these defects.
 StereoImages stereoImages(const Defects& defects);
 /// `sensor`: Stereo or Ladybug.
 CameraDefects cameraDefects(const Defects& defects, Sensor sensor);

@@ -12,13 +12,13 @@
 
 namespace urban_nav_sim {
 
-/// Asks devices for their measurements in the order in which they are due. Not thread-safe.
+/// Takes the measurements of devices in the order in which they are due. Not thread-safe.
 class Timeline {
  public:
   explicit Timeline(double duration) : duration_(duration) {}
 
-  /// `measure` gives what the device says the k-th time, none or several measurements. Of devices that are due at once
-  /// the one added first is asked first.
+  /// `measure` returns the measurements of the k-th time, none or several. Of devices due at the same time the one
+  /// added first is called first.
   void add(const Schedule& schedule, std::function<std::vector<Measurement>(std::int64_t k)> measure);
 
   struct Due {

@@ -16,9 +16,9 @@ namespace {
 
 constexpr double kHalfRoad = 3.4;  // half the width of a road, m
 
-/// A science park: a building like a C that a road runs around, car parks, other buildings, a wedge of grass.
+/// A science park: a C-shaped building with a ring road, car parks, other buildings, a triangular lawn.
 struct BegbrokePlan {
-  double width, depth;  ///< of the rectangle of the ring road's middle; its south side runs through the origin
+  double width, depth;  ///< of the centre line of the ring road, whose south side passes through the origin
   std::vector<Vector2d> ring, footpath;
 
   explicit BegbrokePlan(std::uint32_t seed) {
@@ -190,7 +190,7 @@ std::vector<Route> routesOfBegbroke(std::uint32_t seed) {
   const double w = p.half(), d = p.depth;
   const std::vector<Vector2d> round = {{0, 0}, {w, 0}, {w, d}, {-w, d}, {-w, 0}};
   std::vector<Vector2d> loops = round, orbits4;
-  // Round the building, on to the corner, back a bit, then through the grass in the east and home along the north.
+  // Around the building, to the corner, back, then through the grass in the east and home along the north side.
   for (const Vector2d& v : {Vector2d(0, 0), Vector2d(w, 0), Vector2d(0, 0)}) loops.push_back(v);
   loops.insert(loops.end(), p.footpath.begin(), p.footpath.end());
   for (const Vector2d& v : {Vector2d(-w, d), Vector2d(-w, 0), Vector2d(0, 0)}) loops.push_back(v);

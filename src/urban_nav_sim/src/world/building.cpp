@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Coordinates of a wall: along it, up, and out of it.
+/// Axes of a wall: along it, up, outward.
 struct WallFrame {
   Vector3d start, along;
   Vector3d out() const { return along.cross(Vector3d::UnitZ()); }
@@ -155,7 +155,7 @@ void buildHouse(Site& site, const Extent& e, const Style& s) {
       site.quad(s.trim, f.at(u0, v), f.at(u1, v), q, p);
     };
     const auto band = [&](double v, double height, double out) { bandPiece(-out, length + out, v, height, out); };
-    double from = -0.06;  // the plinth, which ends where doors are
+    double from = -0.06;  // the plinth, interrupted at doors
     for (const Opening& o : openings) {
       if (o.filling.stuff != MaterialKind::Door) continue;
       bandPiece(from, o.u0 - 0.14, floor + 0.25, 0.15, 0.06);

@@ -9,19 +9,19 @@
 
 namespace urban_nav_sim {
 
-/// A hole in a wall: where it is (m along the wall and above z = 0), how deep its reveal, what closes it.
+/// An opening in a wall: position (m along the wall and above z = 0), depth of the reveal, filling.
 struct Opening {
   double u0, u1, v0, v1, depth = 0.18;
   Finish filling;
 };
 
-/// A wall from `start` along a direction, from z = `low` to `high`, seen from its right; with reveals, sills and
-/// fillings.
+/// Builds a wall from `start` along a direction, from z = `low` to `high`, visible from its right; with reveals, sills
+/// and fillings.
 void buildWall(Site& site, const Finish& finish, const Finish& trim, const Eigen::Vector2d& start,
                const Eigen::Vector2d& along, double length, double low, double high,
                const std::vector<Opening>& openings);
 
-/// How a building looks. Sides are in the order south, east, north, west.
+/// Appearance of a building. Sides are in the order south, east, north, west.
 struct Style {
   Finish wall, trim{MaterialKind::Kerb, 1, 0}, roof{MaterialKind::Slate, 0, 0}, door{MaterialKind::Door, 0, 0};
   MaterialKind window = MaterialKind::Sash;
@@ -29,13 +29,13 @@ struct Style {
   double storey = 3.4, window_width = 1.1, window_height = 1.7, sill = 0.95, spacing = 2.9;  ///< m
   double pitch = 0.7;  ///< of the roof, rise over run; 0: flat with a parapet
   bool battlements = false;
-  std::array<int, 4> doors = {0, 0, 0, 0};  ///< the so-manieth bay of a side has a door; 0: none
+  std::array<int, 4> doors = {0, 0, 0, 0};  ///< 1-based bay of a side with a door; 0: none
   std::array<bool, 4> windows = {true, true, true, true};
-  double irregular = 0.12;  ///< share of the bays that are left blank
+  double irregular = 0.12;  ///< share of blank bays
   std::uint64_t seed = 0;
 };
 
-/// A building on a rectangle, roof included. Its floor is z = 0 at the ground's height in its middle.
+/// Builds a building with roof on a rectangle. Its floor, z = 0, is at the ground height of its centre.
 void buildHouse(Site& site, const Extent& extent, const Style& style);
 
 }  // namespace urban_nav_sim

@@ -20,9 +20,9 @@ constexpr double kHalf = 1.4;     // half the width of the corridor, m
 constexpr double kCeiling = 2.7;  // m
 constexpr double kDoorWidth = 0.95, kDoorHeight = 2.1;
 
-/// A corridor around a block, from the seed alone; its middle passes through the origin.
+/// A corridor around a block, determined by the seed; its centre line passes through the origin.
 struct CorridorPlan {
-  double length, depth;  ///< of the rectangle of the corridor's middle
+  double length, depth;  ///< of the rectangle of the centre line
 
   explicit CorridorPlan(std::uint32_t seed) {
     Draw draw(hash(seed, 0xC0D));
@@ -33,7 +33,7 @@ struct CorridorPlan {
   Extent inner() const { return {-10.0 + kHalf, kHalf, length - 10.0 - kHalf, depth - kHalf}; }
 };
 
-/// Doors of a wall: closed ones in their frames, some open to niches, at irregular intervals.
+/// Returns the doors of a wall at irregular intervals: closed ones in frames, some open to niches.
 std::vector<Opening> placeDoors(double length, Draw& draw) {
   std::vector<Opening> doors;
   for (double u = draw.uniform(1.6, 3.0); u + kDoorWidth < length - 1.7; u += draw.uniform(2.4, 5.2)) {
@@ -45,8 +45,8 @@ std::vector<Opening> placeDoors(double length, Draw& draw) {
   return doors;
 }
 
-/// A lift with two leaves that slide apart, hidden by the wall, for almost half of each period (s). The cabin is a
-/// niche of the wall.
+/// Adds a lift with two sliding leaves, which are open, hidden by the wall, for almost half of each period (s). The
+/// cabin is a niche in the wall.
 void addLift(Site& site, const Vector2d& start, const Vector2d& along, const Opening& cabin, double period,
              double phase) {
   const Vector2d out(along.y(), -along.x());
@@ -66,7 +66,7 @@ void addLift(Site& site, const Vector2d& start, const Vector2d& along, const Ope
   }
 }
 
-/// Walls of a rectangle, seen from outside (the inner block) or from inside; a lift in the middle of the first.
+/// Adds the walls of a rectangle, visible from outside (the inner block) or inside; a lift in the middle of the first.
 void addWalls(Site& site, const Extent& e, bool from_inside, std::uint32_t seed) {
   std::array<Vector2d, 4> corners = {Vector2d(e.x0, e.y0), Vector2d(e.x1, e.y0), Vector2d(e.x1, e.y1),
                                      Vector2d(e.x0, e.y1)};
@@ -89,7 +89,7 @@ void addWalls(Site& site, const Extent& e, bool from_inside, std::uint32_t seed)
   }
 }
 
-/// A piece of floor and ceiling.
+/// Adds a section of floor and ceiling.
 void addStorey(Site& site, const Extent& e) {
   const Finish floor{MaterialKind::Slabs, 1, 4}, ceiling{MaterialKind::Render, 2, 5};
   constexpr double kCell = 4.0;
@@ -102,7 +102,7 @@ void addStorey(Site& site, const Extent& e) {
   }
 }
 
-/// Cabinets along the outer walls, radiators along the inner ones, lamps at the ceiling.
+/// Adds cabinets along the outer walls, radiators along the inner ones, lamps at the ceiling.
 void furnish(Site& site, const CorridorPlan& p, std::uint32_t seed) {
   Draw draw(hash(seed, 0xF04));
   const Extent outer = p.outer();
@@ -127,7 +127,7 @@ World buildCorridor(std::uint32_t seed, int day) {
   const CorridorPlan p(seed);
   Site site(world, seed);
   const Extent outer = p.outer(), inner = p.inner();
-  // Floor and ceiling reach under the walls into the niches of the doors.
+  // Floor and ceiling extend under the walls into the niches of the doors.
   constexpr double kNiche = 1.7;
   addStorey(site, {outer.x0 - kNiche, outer.y0 - kNiche, outer.x1 + kNiche, inner.y0 + kNiche});
   addStorey(site, {outer.x0 - kNiche, inner.y1 - kNiche, outer.x1 + kNiche, outer.y1 + kNiche});

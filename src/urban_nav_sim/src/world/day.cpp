@@ -11,7 +11,7 @@ Day makeDay(std::uint32_t seed, int number) {
   Draw draw(hash(seed, 0xDA1, static_cast<std::uint64_t>(number)));
   Day day;
   day.number = number;
-  // The first day is a fine one; the others are as they come, every third one wet, every fourth one in winter.
+  // The first day is fine; the others are random, every third one wet, every fourth one in winter.
   const bool fine = number == 1;
   const double elevation = draw.uniform(0.55, 0.95), azimuth = draw.uniform(-2.2, -0.9) + (number % 2 == 0 ? 1.6 : 0.0);
   day.to_sun = Eigen::Vector3d(std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation),

@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 namespace {
 
 constexpr double kHalfField = 240.0;  // m
-constexpr double kHalfBelt = 210.0;   // m: trees, out of range of laser beams from every route
+constexpr double kHalfBelt = 210.0;   // m: trees, beyond the range of lasers from every route
 constexpr double kFieldCell = 6.0;    // m
 
 }  // namespace

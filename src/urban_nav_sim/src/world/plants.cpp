@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A square card of leaves about a point, turned at random, with a place of its own on the sheet of leaves.
+/// Adds a square card of leaves at a point with random rotation and a random offset on the leaf texture.
 void addCard(Part& part, const Vector3d& centre, double size, Draw& draw) {
   const Vector3d u = Vector3d(draw.normal(), draw.normal(), 0.6 * draw.normal()).normalized();
   const Vector3d v = u.cross(Vector3d(draw.normal(), draw.normal(), draw.normal())).normalized();
@@ -47,7 +47,7 @@ void plantTree(Site& site, double x, double y, double height, std::uint64_t seed
     site.pole(bark, fork, tip, 0.4 * radius, 0.12 * radius, 5);
     const double clump = draw.uniform(0.45, 0.65) * crown;
     for (int k = 0; k < 34; ++k) {
-      // More cards near the surface of the clump than inside.
+      // Denser near the surface of the clump than inside.
       const Vector3d way = Vector3d(draw.normal(), draw.normal(), 0.8 * draw.normal()).normalized();
       addCard(site.part(leaves), tip + clump * std::cbrt(draw.uniform(0.2, 1.0)) * way, draw.uniform(0.7, 1.2), draw);
     }

@@ -16,8 +16,8 @@ Pose poseAt(const Vector3d& t, double yaw) {
   return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Vector3d::UnitZ())), t};
 }
 
-/// Along a line and back, turning on the spot at its ends, so that nothing ever jumps. `bob`: m up and down, once a
-/// step.
+/// Motion along a line and back, rotating on the spot at its ends, hence continuous. `bob`: vertical amplitude, m, once
+/// per step.
 std::function<Pose(double)> toAndFro(const std::vector<Vector2d>& line, double speed, double phase,
                                      const std::function<double(double, double)>& ground, double bob) {
   double length = 0.0;
@@ -34,7 +34,7 @@ std::function<Pose(double)> toAndFro(const std::vector<Vector2d>& line, double s
   };
 }
 
-/// From one place to the other, and back underground, out of every sensor's view: for ends that are out of sight.
+/// Motion from one position to the other and back underground, out of view of every sensor; for ends out of sight.
 std::function<Pose(double)> oneWay(const Vector2d& from, const Vector2d& to, double speed, double phase,
                                    const std::function<double(double, double)>& ground) {
   constexpr double kDepth = 8.0;  // m
@@ -48,7 +48,7 @@ std::function<Pose(double)> oneWay(const Vector2d& from, const Vector2d& to, dou
   };
 }
 
-/// A body with the same outline at each side: `outline` counter-clockwise in the x-z plane as seen from the right (-y).
+/// Adds a prism: `outline` counter-clockwise in the x-z plane as seen from the right (-y).
 void prism(Site& site, const Finish& finish, const std::vector<Vector2d>& outline, double half_width, double narrower) {
   const std::size_t n = outline.size();
   Vector2d middle = Vector2d::Zero();

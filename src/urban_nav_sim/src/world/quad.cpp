@@ -17,12 +17,12 @@ namespace {
 
 constexpr double kWing = 8.0;      // depth of the buildings around the quad, m
 constexpr double kPath = 7.0;      // width of the gravel around the lawn
-constexpr double kFromWall = 3.8;  // where the robot drives: off the wall
+constexpr double kFromWall = 3.8;  // distance of the robot from the wall
 constexpr double kArch = 3.6;      // width of the archway
 
-/// Where things are, from the seed alone: the route must know it without the world.
+/// Layout determined by the seed: routes need it without the world.
 struct QuadPlan {
-  double west, east, south, north;    ///< the inner faces of the four walls
+  double west, east, south, north;    ///< inner faces of the four walls
   double gate;                        ///< y of the archway in the east wing
   double garden;                      ///< x at which the gardens begin
   std::vector<Vector2d> garden_path;  ///< closed, from the archway on, rounded
@@ -33,7 +33,7 @@ struct QuadPlan {
     west = -0.5 * width, east = 0.5 * width, south = -kFromWall, north = depth - kFromWall;
     gate = south + depth * draw.uniform(0.42, 0.58);
     garden = east + kWing;
-    // A dog's leg around the gardens (Newman et al. 2009, figure 1).
+    // Around the gardens (Newman et al. 2009, figure 1).
     const std::vector<Vector2d> corners = {{3, 0},    {14, -1}, {27, -3}, {33, -10}, {36, -20}, {48, -24},
                                            {60, -20}, {63, -4}, {62, 14}, {52, 21},  {40, 22},  {37, 32},
                                            {28, 38},  {12, 36}, {6, 27},  {5, 12}};
@@ -72,7 +72,7 @@ void buildWings(Site& site, const QuadPlan& p, std::uint32_t seed) {
   wing({p.west - kWing, p.north, p.east + kWing, p.north + kWing + 2}, 1);
   style.storeys = 2, style.storey += 0.4, style.doors = {0, 4, 0, 0};
   const Style stone = style;
-  style.wall = {MaterialKind::Render, 1, 7}, style.window = MaterialKind::Casement;  // one side is plastered
+  style.wall = {MaterialKind::Render, 1, 7}, style.window = MaterialKind::Casement;  // one side plastered
   wing({p.west - kWing, p.south, p.west, p.north}, 3);
   style = stone;
   style.doors = {0, 0, 0, 5}, style.windows = {false, true, false, true};
@@ -80,10 +80,10 @@ void buildWings(Site& site, const QuadPlan& p, std::uint32_t seed) {
   wing({p.east, p.gate + 0.5 * kArch, p.garden, p.north}, 4);
 }
 
-/// A tower over the archway: a barrel vault through it, round arches with a ring of stones at both ends.
+/// Builds a tower over the archway: a barrel vault, round arches with a ring of stones at both ends.
 void buildGate(Site& site, const QuadPlan& p) {
   constexpr int kStones = 11;
-  constexpr double kRing = 0.4, kProud = 0.06;  // m: how broad the ring is, and how far before the wall
+  constexpr double kRing = 0.4, kProud = 0.06;  // m: width of the ring, projection from the wall
   const double radius = 0.5 * kArch, floor = site.ground(p.east + 4, p.gate);
   const double spring = floor + 2.2, low = spring + radius + 0.1, high = floor + 10.8;
   const double x0 = p.east - 0.35, x1 = p.garden + 0.35, y0 = p.gate - radius - 0.6, y1 = p.gate + radius + 0.6;
@@ -136,7 +136,7 @@ void furnishCourt(Site& site, const QuadPlan& p, std::uint32_t seed) {
     placeBench(site, c.x0 + t * (c.x1 - c.x0), c.y0 + 0.55, M_PI);
     placeBench(site, c.x1 - 0.5, c.y0 + (t < 0.5 ? 0.2 : 0.8) * (c.y1 - c.y0), -M_PI / 2);
   }
-  // In the middle of the lawn: a plinth with a sundial, and a tree to one side.
+  // At the centre of the lawn: a plinth with a sundial, and a tree to one side.
   const Vector2d m(0.5 * (c.x0 + c.x1), 0.5 * (c.y0 + c.y1));
   const Vector3d foot(m.x(), m.y(), site.ground(m.x(), m.y()));
   site.box({MaterialKind::Slabs, 0, 9}, foot, {2.4, 2.4, 0.25});
@@ -198,11 +198,11 @@ void plantGardens(Site& site, const QuadPlan& p, std::uint32_t seed) {
   }
 }
 
-/// What is there on one day and not on another.
+/// Adds the objects of one day.
 void peopleDay(Site& site, const QuadPlan& p, std::uint32_t seed, int day) {
   Draw draw(hash(seed, 0xDE, static_cast<std::uint64_t>(day)));
   const Extent c = p.court();
-  // Vans by the walls, out of the way of the robot (1.6 m from the wall to their outer side).
+  // Vans at the walls, clear of the robot (1.6 m from the wall to their outer side).
   const int vans = 1 + draw.index(3);
   for (int i = 0; i < vans; ++i) {
     const double y = c.y0 + 8 + (c.y1 - c.y0 - 20) * (i + draw.uniform(0, 0.5)) / vans;

@@ -13,14 +13,14 @@
 
 namespace urban_nav_sim {
 
-/// A look of a thing: which stuff, which colour of it, and what tells it from its like.
+/// Appearance of an object: material, colour variant, and seed of the instance.
 struct Finish {
   MaterialKind stuff = MaterialKind::Render;
   std::uint64_t variant = 0;
   std::uint32_t seed = 0;
 };
 
-/// Where a world is put together: triangles are sorted into parts by their look.
+/// Assembles a world: triangles are sorted into parts by their appearance.
 class Site {
  public:
   Site(World& world, std::uint64_t seed) : world_(world), stock_(seed) {}
@@ -28,22 +28,22 @@ class Site {
   World& world() { return world_; }
   double ground(double x, double y) const { return world_.ground(x, y); }
 
-  /// The part of this look. Valid until the next call.
+  /// Returns the part of this appearance. Valid until the next call.
   Part& part(const Finish& finish);
   /// Corners counter-clockwise as seen from outside; the texture runs with a-b and a-d, in m, from `origin` at a.
   void quad(const Finish& finish, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
             const Eigen::Vector3d& d, const Eigen::Vector2d& origin = Eigen::Vector2d::Zero());
-  /// The same with a texture that is stretched to the square of 2 m that windows fill.
+  /// The same with the texture stretched to the square of 2 m of windows.
   void pane(const Finish& finish, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
             const Eigen::Vector3d& d);
-  /// A box with its sides along the directions (cos yaw, sin yaw), its left and up. No underside.
+  /// Adds a box with sides along (cos yaw, sin yaw), its left and up. No underside.
   void box(const Finish& finish, const Eigen::Vector3d& centre_below, const Eigen::Vector3d& size, double yaw = 0.0);
-  /// A post or trunk of `sides` sides from `below` (radius r0) to `above` (radius r1).
+  /// Adds a post or trunk of `sides` sides from `below` (radius r0) to `above` (radius r1).
   void pole(const Finish& finish, const Eigen::Vector3d& below, const Eigen::Vector3d& above, double r0, double r1,
             int sides = 8);
 
-  /// Parts from here on belong to a mover, in its own frame; `take` hands it out, `release` adds it to the world; both
-  /// go on with the world itself.
+  /// Subsequent parts belong to a mover, in its frame; `take` returns it, `release` adds it to the world; both continue
+  /// with the static world.
   void beginMover();
   Mover take();
   void release(std::function<urban_nav_core::Pose(double)> path);

@@ -21,7 +21,7 @@ constexpr double kSide = 4.4, kSideFace = kSide + kPavement;  // the same of sid
 constexpr int kBlocks = 5;
 constexpr double kDepth = 9.0;  // of a house
 
-/// Two long streets (y = 0 and y = second) and the side streets between, from the seed alone.
+/// Two long streets (y = 0 and y = second) and the side streets between, determined by the seed.
 struct StreetPlan {
   double house, block, second;
   int houses;
@@ -32,11 +32,11 @@ struct StreetPlan {
     block = house * houses + 2.0 * kSideFace;
     second = 2.0 * kFace + 2.0 * kDepth + draw.uniform(7, 12);
   }
-  double sideStreet(int i) const { return block * i; }  ///< x of its middle; the route begins at 0
+  double sideStreet(int i) const { return block * i; }  ///< x of its centre line; the route begins at 0
   double first(int i) const { return sideStreet(i) + kSideFace; }
 };
 
-/// A terrace: houses in a row that look alike, every one of a few kinds, so that one place is taken for another.
+/// Builds a terrace: similar houses of a few kinds in a row, so that places are ambiguous.
 void buildTerrace(Site& site, const StreetPlan& p, double x0, double y0, bool faces_south, std::uint64_t row,
                   std::uint32_t seed) {
   Draw draw(hash(seed, row, 0x7E2));
@@ -51,7 +51,7 @@ void buildTerrace(Site& site, const StreetPlan& p, double x0, double y0, bool fa
     s.storeys = i == 2 ? 3 : 2, s.storey = kind.uniform(2.9, 3.2), s.sill = 0.8,
     s.window_height = kind.uniform(1.4, 1.6), s.window_width = kind.uniform(0.95, 1.15);
     s.spacing = 2.2, s.irregular = 0.0,
-    s.seed = hash(seed, 0x111, static_cast<std::uint64_t>(i));  // the same in each house of the kind
+    s.seed = hash(seed, 0x111, static_cast<std::uint64_t>(i));  // the same for each house of the kind
     s.doors = {2, 0, 2, 0}, s.windows = {true, false, true, false};
   }
   for (int i = 0; i < p.houses; ++i) {
@@ -151,7 +151,7 @@ void fillStreetDay(Site& site, const StreetPlan& p, std::uint32_t seed, int day)
     const double y = draw.chance(0.5) ? kHalfStreet + 1.3 : -kHalfStreet - 1.3, x = p.first(draw.index(3));
     sendWalker(site, {{x, y}, {x + p.house * p.houses, y}}, draw.uniform(1.0, 1.6), draw.uniform(), draw.bits());
   }
-  // The robot turns off to the north alone, and the ends are inside houses.
+  // The robot turns off only to the north, and the ends are inside houses.
   const Vector2d east(p.sideStreet(kBlocks + 1) - 3.0, -3.2), west(p.sideStreet(-1) + 2.5, -3.2);
   sendTraffic(site, east, west, draw.uniform(5, 8), day == 1 ? 2 : 4, draw);
 }
@@ -182,12 +182,12 @@ World buildStreet(std::uint32_t seed, int day) {
   laySurroundings(site, all, 80.0, {MaterialKind::Meadow, 1, 2});
   buildBlocks(site, p, seed);
   paintRoads(site, p);
-  // What closes the long streets at their ends.
+  // Closes the long streets at their ends.
   Style end;
   end.wall = {MaterialKind::Ashlar, 1, 3}, end.storeys = 3, end.seed = seed, end.doors = {0, 4, 0, 4};
   buildHouse(site, {p.sideStreet(-1) - 2, -9, p.sideStreet(-1) + 7, 9}, end);
   buildHouse(site, {p.sideStreet(kBlocks + 1) - 7, -9, p.sideStreet(kBlocks + 1) + 2, 9}, end);
-  // ... and the side streets.
+  // Closes the side streets.
   for (int b = -1; b <= kBlocks + 1; ++b) {
     end.seed = hash(seed, static_cast<std::uint64_t>(b + 9)),
     end.wall = {b % 2 == 0 ? MaterialKind::Render : MaterialKind::Rubble, 2, static_cast<std::uint32_t>(b + 40)},
@@ -207,7 +207,7 @@ std::vector<Route> routesOfStreet(std::uint32_t seed) {
   const double x1 = p.sideStreet(1), y1 = p.second;
   const std::vector<Vector2d> round = {{0, 0}, {x1, 0}, {x1, y1}, {0, y1}};
   std::vector<Vector2d> loops = round, orbits4;
-  // Round a block, along the first street again, back, and round the next block.
+  // Around a block, along the first street again, back, and around the next block.
   for (const Vector2d& v : {Vector2d(0, 0), Vector2d(x1 - 20, 0), Vector2d(0, 0), Vector2d(p.sideStreet(2), 0),
                             Vector2d(p.sideStreet(2), y1), Vector2d(0, y1), Vector2d(0, 0)})
     loops.push_back(v);

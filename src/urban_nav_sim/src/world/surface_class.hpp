@@ -5,8 +5,7 @@
 
 namespace urban_nav_sim {
 
-/// What a surface is, in the words of the paper's classifier (Newman et al. 2009, section 8), and as cloud.ply numbers
-/// it.
+/// Classes of the classifier of the paper (Newman et al. 2009, section 8), with the numbers of cloud.ply.
 enum class SurfaceClass : std::uint8_t {
   Other = 0,
   Grass = 1,

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kCell = 1.0 / 3.0;
 
-/// A corner of the mesh with what all regions say there.
+/// A vertex of the mesh with the values of all regions.
 struct Corner {
   Vector2d at;
   std::vector<float> inside;
@@ -29,7 +29,7 @@ Corner between(const Corner& a, const Corner& b, std::size_t region) {
   return c;
 }
 
-/// The part of a convex polygon where the region's function has the wanted sign.
+/// Returns the part of a convex polygon where the function of the region has the requested sign.
 std::vector<Corner> cut(const std::vector<Corner>& polygon, std::size_t region, bool inside) {
   std::vector<Corner> result;
   for (std::size_t i = 0; i < polygon.size(); ++i) {

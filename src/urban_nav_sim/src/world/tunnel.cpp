@@ -12,11 +12,11 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kFrom = -240.0, kTo = 560.0;  // m along x; both ends are out of range of every route's laser beams
-constexpr double kPiece = 8.0;                 // m of wall in one piece
+constexpr double kFrom = -240.0, kTo = 560.0;  // m along x; both ends are beyond the range of lasers from every route
+constexpr double kPiece = 8.0;                 // m, length of a wall segment
 constexpr double kRibDepth = 0.3, kRibLength = 0.6;
 
-/// Cross-section in the y-z plane, from the foot of the right wall over the crown to that of the left wall.
+/// Returns the cross-section in the y-z plane, from the foot of the right wall over the crown to that of the left wall.
 std::vector<Vector2d> crossSection(double inset) {
   const double half = kTunnelHalfWidth - inset;
   std::vector<Vector2d> line = {{-half, 0.0}, {-half, kTunnelSpring}};
@@ -32,7 +32,7 @@ std::vector<Vector2d> crossSection(double inset) {
 
 Vector3d at(double x, const Vector2d& place) { return {x, place.x(), place.y()}; }
 
-/// A length of lining from x0 to x1, seen from the inside.
+/// Adds a section of lining from x0 to x1, visible from the inside.
 void addLining(Site& site, const Finish& finish, const std::vector<Vector2d>& section, double x0, double x1) {
   double around = 0.0;
   for (std::size_t i = 0; i + 1 < section.size(); ++i) {
@@ -42,7 +42,7 @@ void addLining(Site& site, const Finish& finish, const std::vector<Vector2d>& se
   }
 }
 
-/// The face across the tunnel at x, between two cross-sections.
+/// Adds the face across the tunnel at x between two cross-sections.
 void addStep(Site& site, const Finish& finish, const std::vector<Vector2d>& outer, const std::vector<Vector2d>& inner,
              double x) {
   for (std::size_t i = 0; i + 1 < outer.size(); ++i)

@@ -41,7 +41,7 @@ std::vector<Route> fastRoutes(const std::string& world, std::uint32_t seed) {
   throw urban_nav_core::UserError("world", "\"" + world + "\"", urban_nav_core::joined(worldNames()));
 }
 
-/// The same way, but for a start that is hardly one.
+/// Returns the same route with a very slow start.
 Route creeping(const Route& route) {
   Route slow = route;
   slow.name = "creep";

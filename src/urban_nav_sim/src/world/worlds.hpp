@@ -8,7 +8,7 @@
 
 namespace urban_nav_sim {
 
-/// What each world is: its ground, what is built on it for a day, and the ways through it.
+/// Builders of each world: ground, objects of a day, and routes.
 World buildQuad(std::uint32_t seed, int day);
 World buildStreet(std::uint32_t seed, int day);
 World buildBegbroke(std::uint32_t seed, int day);
@@ -23,10 +23,10 @@ std::vector<Route> routesOfTunnel();
 std::vector<Route> routesOfCorridor(std::uint32_t seed);
 std::vector<Route> routesOfField(std::uint32_t seed);
 
-/// For building routes: a way through places, and the same way backwards.
+/// Helpers of routes: waypoints through positions, and the same in reverse.
 std::vector<Waypoint> through(const std::vector<Eigen::Vector2d>& places, double speed = 1.25);
 std::vector<Waypoint> backwards(const std::vector<Waypoint>& waypoints);
-/// Corners of a line rounded off twice (Chaikin 1974). `closed`: the last point is joined to the first.
+/// Returns the line with corners rounded twice (Chaikin 1974). `closed`: the last point is joined to the first.
 std::vector<Eigen::Vector2d> rounded(std::vector<Eigen::Vector2d> line, bool closed);
 
 }  // namespace urban_nav_sim

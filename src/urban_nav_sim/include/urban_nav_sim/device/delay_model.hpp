@@ -14,18 +14,18 @@ struct DelayModel {
          max_ms = 0.0;  ///< mean: of the exponential; batch: max is the period of the reads
 
   /// "exponential:MIN:MEAN:MAX", "uniform:MIN:MAX" or "batch:MS", in ms. `least`: ms, the least delay of a batch.
-  /// Throws UserError; `option`: where the text stood.
+  /// Throws UserError; `option`: source of the text.
   static DelayModel parse(const std::string& text, double least, const std::string& option = "--delay");
-  /// Draws the part beyond min_ms, ms; `arrival_ms`: when the frame would arrive, for batches.
+  /// Draws the delay beyond min_ms, ms; `arrival_ms`: undelayed arrival of the frame, for batches.
   double drawExcess(std::mt19937_64& random, double arrival_ms) const;
 };
 
-/// Clock of a device against the host's: "OFFSET_S:PPM".
+/// Clock of a device relative to that of the host: "OFFSET_S:PPM".
 struct DeviceClock {
   double offset = 0.0;  ///< s
   double skew = 0.0;    ///< device seconds per host second minus 1
 
-  /// Throws UserError; `option`: where the text stood.
+  /// Throws UserError; `option`: source of the text.
   static DeviceClock parse(const std::string& text, const std::string& option = "--clock");
 };
 

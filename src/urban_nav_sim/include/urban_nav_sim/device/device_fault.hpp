@@ -9,7 +9,7 @@
 
 namespace urban_nav_sim {
 
-/// What can go wrong between a device and its host.
+/// Faults between a device and its host.
 enum class DeviceFaultKind : std::uint8_t {
   Flip,       ///< one bit of a frame is wrong; value: share of the frames (default 0.01)
   Garbage,    ///< random bytes before a frame; value: their number (default 100)
@@ -20,18 +20,18 @@ enum class DeviceFaultKind : std::uint8_t {
   Late,       ///< replies are late; value: ms (default 200)
   Streaming,  ///< the device streams already when the session begins
   Baud,       ///< the device changes its line rate; value: baud (default 9600)
-  Mode,       ///< the configuration is another
+  Mode,       ///< the configuration is changed
   Power,      ///< the device is off, then boots; value: s of booting (default 1)
-  Unplug,     ///< the port vanishes and returns under another name
+  Unplug,     ///< the port disappears and returns with another name
   Gap,        ///< measurements are lost; value: their number (default 1)
   Delay,      ///< the least delay is longer; value: ms (default 5)
-  Clock       ///< the counter of the device begins again
+  Clock       ///< the counter of the device restarts
 };
 const char* toString(DeviceFaultKind kind);
 /// "flip, garbage, ...".
 std::string deviceFaultList();
 
-/// A fault for some time, s since the session began.
+/// A fault during a time interval, s since the begin of the session.
 struct DeviceFault {
   DeviceFaultKind kind = DeviceFaultKind::Flip;
   double start = 0.0, duration = 1.0;
@@ -40,11 +40,10 @@ struct DeviceFault {
   bool isActive(double t) const { return t >= start && t < start + duration; }
 };
 
-/// "KIND:START_S:DURATION_S[:VALUE]". Throws UserError that names what is wrong and what is allowed; `option`: where
-/// the text stood.
+/// "KIND:START_S:DURATION_S[:VALUE]". Throws UserError with the valid values; `option`: source of the text.
 DeviceFault parseDeviceFault(const std::string& text, const std::string& option = "--fault");
 
-/// Active fault of a kind at a time; null if there is none.
+/// Returns the active fault of a kind at a time; null without one.
 const DeviceFault* findDeviceFault(const std::vector<DeviceFault>& faults, DeviceFaultKind kind, double t);
 
 }  // namespace urban_nav_sim

@@ -12,7 +12,7 @@
 
 namespace urban_nav_sim {
 
-/// Measurements of one serial device in a session. Times are s since the session began.
+/// Measurements of one serial device in a session. Times are s since the begin of the session.
 struct DeviceReadings {
   std::vector<LaserReading> lasers;
   std::vector<ImuReading> imu;
@@ -23,8 +23,8 @@ struct DeviceReadings {
 
 /// Kinds of serial devices: lms291, xsens_mti, segway_rmp, gps.
 const std::vector<std::string>& serialDeviceKinds();
-/// Returns a device of that kind which measures the readings. `gpsd`: whether a receiver speaks gpsd's protocol.
-/// Throws UserError for another kind.
+/// Returns a device of that kind that reproduces the readings. `gpsd`: whether a receiver uses the gpsd protocol.
+/// Throws UserError for an unknown kind.
 std::unique_ptr<SimulatedDevice> makeSimulatedDevice(const std::string& kind, DeviceReadings readings,
                                                      const DeviceOptions& options, bool gpsd);
 

@@ -11,30 +11,30 @@
 
 namespace urban_nav_sim {
 
-/// Where the host finds a simulated device: a pseudo-terminal or a connection.
+/// Connection of the host to a simulated device: a pseudo-terminal or a socket.
 class DeviceLink {
  public:
   virtual ~DeviceLink() = default;
   virtual DeviceBytes read() = 0;
-  /// Drops what does not fit, as a UART does.
+  /// Drops bytes that do not fit, like a UART.
   virtual void write(const DeviceBytes& bytes) = 0;
-  /// Line rate that the host has set, bit/s.
+  /// Returns the line rate set by the host, bit/s.
   virtual int hostBaud() const = 0;
-  /// Takes the device away, or brings it back under another name.
+  /// Removes the device, or restores it with another name.
   virtual void setPlugged(bool plugged) = 0;
 };
 
-/// Pseudo-terminal with a symbolic link at `path`. Throws DataError naming it if that cannot be made.
+/// Opens a pseudo-terminal with a symbolic link at `path`. Throws DataError naming it if it cannot be created.
 std::unique_ptr<DeviceLink> openPseudoTerminal(const std::string& path);
-/// TCP server for one client at a time at a port of this host; each is sent the greeting. Throws DataError.
+/// Opens a TCP server for one client at a time at a port of this host, which sends the greeting. Throws DataError.
 std::unique_ptr<DeviceLink> openTcpServer(int port, const std::string& greeting);
 
-/// Steady clock of serveDevice(), ns.
+/// Returns the steady clock of serveDevice(), ns.
 DeviceTime serverTime();
 
 /// Runs a device in real time until its session ends or `stop` returns true. `begin`: of the session by the steady
-/// clock, ns; before it the device is there and does not measure; nullopt: now. Returns the truth of all measurements,
-/// by real time.
+/// clock, ns, before which the device does not measure; nullopt: now. Returns the truth of all measurements, in real
+/// time.
 std::vector<DeviceTruth> serveDevice(SimulatedDevice& device, DeviceLink& link, const std::function<bool()>& stop,
                                      std::optional<DeviceTime> begin = {});
 

@@ -12,13 +12,13 @@ namespace urban_nav_sim {
 using DeviceTime = std::int64_t;
 using DeviceBytes = std::vector<std::uint8_t>;
 
-/// Serial line from a device to the host: bytes leave one after another at the line rate, and arrive later by the
-/// excess delay of their frame, in order. Deterministic.
+/// Serial line from a device to the host: bytes are sent at the line rate, and arrive in order, delayed by the excess
+/// delay of their frame. Deterministic.
 class LineQueue {
  public:
-  /// Appends a frame that may leave at `begin`, ns, or when the line is free; `excess`: ns between line and host.
+  /// Appends a frame to send at `begin`, ns, or when the line is free; `excess`: ns between line and host.
   void push(DeviceBytes bytes, DeviceTime begin, int baud, DeviceTime excess = 0);
-  /// Bytes that have arrived by `now`. Where the host listens at another rate it gets noise.
+  /// Returns the bytes that have arrived by `now`; noise if the host uses another line rate.
   DeviceBytes take(int host_baud, DeviceTime now);
   bool empty() const { return frames_.empty(); }
   void clear() { frames_.clear(); }

@@ -7,15 +7,15 @@
 
 namespace urban_nav_sim {
 
-/// Motion of a session as wheels measure it.
+/// Motion of a session measured by the wheels.
 struct WheelReading {
-  double time = 0.0;      ///< s since the session began
+  double time = 0.0;      ///< s since the begin of the session
   double velocity = 0.0;  ///< m/s
   double yaw_rate = 0.0;  ///< rad/s
 };
 
-/// An RMP200 over USB: eight packets every 10 ms with the motion of the session. Keeps a command for 400 ms, as its
-/// message 0407 says.
+/// An RMP200 over USB: eight packets every 10 ms with the motion of the session. Keeps a command for 400 ms, according
+/// to its message 0407.
 class SimulatedBase : public SimulatedDevice {
  public:
   SimulatedBase(std::vector<WheelReading> readings, const DeviceOptions& options);

@@ -15,7 +15,7 @@ namespace urban_nav_sim {
 struct DeviceOptions {
   std::vector<DeviceFault> faults;
   DeviceClock clock;
-  std::optional<DelayModel> delay;  ///< empty: the device's own, without jitter
+  std::optional<DelayModel> delay;  ///< nullopt: that of the device, without jitter
   std::uint64_t seed = 1;
 };
 
@@ -25,33 +25,33 @@ struct DeviceTruth {
   DeviceTime time = 0;        ///< ns
 };
 
-/// A device at the end of a serial line, on a clock that is handed in: bytes from the host in, bytes to the host out.
-/// Deterministic. Not thread-safe.
+/// A device on a serial line with a given clock: receives bytes from the host, and sends bytes to it. Deterministic.
+/// Not thread-safe.
 class SimulatedDevice {
  public:
   SimulatedDevice(DeviceOptions options, double least_delay_ms, int baud);
   virtual ~SimulatedDevice() = default;
 
-  /// Begins the session. Times of all calls rise.
+  /// Begins the session. Times of successive calls must ascend.
   void start(DeviceTime now);
-  /// Bytes that the host sent at `host_baud`.
+  /// Receives bytes sent by the host at `host_baud`.
   void receive(const DeviceBytes& bytes, int host_baud, DeviceTime now);
   /// Measures what is due and returns the bytes that have arrived at the host by `now`.
   DeviceBytes transmit(int host_baud, DeviceTime now);
-  /// Whether the port is there.
+  /// Returns whether the port exists.
   bool isPlugged(DeviceTime now) const;
-  /// No more measurements, and all bytes are sent.
+  /// Returns whether all measurements are done and all bytes are sent.
   bool isFinished() const { return measured_all_ && line_.empty(); }
 
-  /// Truth of the measurements since the last call.
+  /// Returns the truth of the measurements since the last call.
   std::vector<DeviceTruth> takeTruth() { return std::exchange(truth_, {}); }
 
  protected:
-  /// A byte of the host at the right rate.
+  /// Processes a byte of the host at the correct rate.
   virtual void takeByte(std::uint8_t byte) = 0;
   /// Measures up to `t`, s since the start. Returns false when the session has ended.
   virtual bool measure(double t) = 0;
-  /// The device comes back from a loss of power.
+  /// Restarts the device after a loss of power.
   virtual void boot() = 0;
 
   double now() const { return now_s_; }
@@ -61,9 +61,9 @@ class SimulatedDevice {
   const DeviceClock& clock() const { return options_.clock; }
   std::mt19937_64& random() { return random_; }
 
-  /// Sends the frame of a measurement at `t`, s; its true time goes to the truth.
+  /// Sends the frame of a measurement at `t`, s, and records its true time.
   void sendMeasurement(DeviceBytes frame, double t, std::int64_t sequence);
-  /// Further bytes of the same measurement, or unasked messages: sent at once without a truth.
+  /// Sends further bytes of the same measurement, or unsolicited messages, immediately and without a truth.
   void sendNow(DeviceBytes bytes);
   void sendReply(DeviceBytes reply, double delay_s);
 

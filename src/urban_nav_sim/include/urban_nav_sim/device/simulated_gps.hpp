@@ -10,7 +10,7 @@ namespace urban_nav_sim {
 
 /// Fix of a session.
 struct GpsReading {
-  double time = 0.0;  ///< s since the session began
+  double time = 0.0;  ///< s since the begin of the session
   bool valid = false;
   double latitude = 0.0, longitude = 0.0;  ///< deg
   double height = 0.0;                     ///< m above the ellipsoid
@@ -18,10 +18,10 @@ struct GpsReading {
   double sigma = 5.0;                      ///< m, horizontal
 };
 
-/// Text of a fix: sentences GGA, GSA and RMC of a receiver, or lines of gpsd. `seconds`: UTC, s since 1970.
+/// Return a fix as text: sentences GGA, GSA and RMC of a receiver, or lines of gpsd. `seconds`: UTC, s since 1970.
 std::string nmeaOfReading(const GpsReading& reading, double seconds);
 std::string gpsdOfReading(const GpsReading& reading, double seconds);
-/// What gpsd sends to a client that connects, and after its WATCH.
+/// Return the messages of gpsd to a new client, and after its WATCH.
 std::string gpsdGreeting();
 std::string gpsdWatchAnswer();
 

@@ -10,7 +10,7 @@ namespace urban_nav_sim {
 
 /// Sample of a session in the axes of the sensor.
 struct ImuReading {
-  double time = 0.0;                                      ///< s since the session began
+  double time = 0.0;                                      ///< s since the begin of the session
   std::array<double, 3> acceleration{}, rate{}, field{};  ///< m/s^2 with gravity, rad/s, units of the earth's field
   std::array<double, 4> orientation{1, 0, 0, 0};          ///< w x y z, sensor to ENU
 };
@@ -25,7 +25,7 @@ class SimulatedImu : public SimulatedDevice {
   bool measure(double t) override;
   void boot() override;
   void answer(std::uint8_t mid, const DeviceBytes& data);
-  /// Reads a setting, or writes it if there are data.
+  /// Answers a request to read a setting, or to write it if there are data.
   void answerSetting(std::uint8_t mid, DeviceBytes& setting, const DeviceBytes& data);
 
   std::vector<ImuReading> readings_;

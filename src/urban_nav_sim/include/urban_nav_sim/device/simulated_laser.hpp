@@ -9,7 +9,7 @@ namespace urban_nav_sim {
 
 /// A scan of a session: 181 ranges, m (not finite: open air), and reflectivities, 0...255.
 struct LaserReading {
-  double time = 0.0;  ///< s since the session began, first beam
+  double time = 0.0;  ///< s since the begin of the session, first beam
   std::vector<float> ranges;
   std::vector<float> reflectivities;
 };

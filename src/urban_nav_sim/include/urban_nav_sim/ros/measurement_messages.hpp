@@ -23,12 +23,12 @@
 
 #include "urban_nav_sim/session.hpp"
 
-/// What of urban_nav_sim knows of ROS: the bag of the command and the live node get their messages here, so that equal
-/// sessions are equal bytes in both.
+/// The ROS messages of urban_nav_sim, for both the bag of the command and the live node, so that equal sessions give
+/// equal bytes in both.
 namespace urban_nav_sim {
 
-/// A message (never null) and the topic of docs/architecture.md where it belongs, without a slash in front: a name
-/// space may come there.
+/// A message (never null) and its topic of docs/architecture.md, without a leading slash, so that a namespace can be
+/// prepended.
 struct TopicMessage {
   using Message = std::variant<sensor_msgs::ImagePtr, sensor_msgs::CameraInfoPtr, sensor_msgs::CompressedImagePtr,
                                sensor_msgs::LaserScanPtr, sensor_msgs::ImuPtr, sensor_msgs::MagneticFieldPtr,
@@ -38,15 +38,15 @@ struct TopicMessage {
   Message message;
 };
 
-/// Every topic on which these sensors, and the truth, may speak, with an empty message of its type.
+/// Returns all topics of these sensors and the truth, with an empty message of their type.
 std::vector<TopicMessage> listTopics(const std::set<Sensor>& sensors);
 
-/// Measurements of one session as messages. Not thread-safe: laser scans are counted.
+/// Converts the measurements of one session to messages. Not thread-safe, since laser scans are counted.
 class MeasurementMessages {
  public:
   explicit MeasurementMessages(const Session& session);
 
-  /// In the order in which they are to be published; none where nothing was measured.
+  /// Returns messages in the order of publication; none without a measurement.
   std::vector<TopicMessage> convert(const Measurement& measurement);
 
  private:
@@ -59,14 +59,14 @@ class MeasurementMessages {
   Messages from(const GpsMeasurement& gps) const;
   Messages from(const LidarMeasurement& lidar) const;
   Messages from(const TruthMeasurement& truth) const;
-  Messages from(const ViewTruth&) const { return {}; }  ///< for the truth folder alone
+  Messages from(const ViewTruth&) const { return {}; }  ///< only for the truth folder
 
   sensor_msgs::CameraInfo left_, right_;
   std::array<sensor_msgs::CameraInfo, 5> ladybug_;
   std::array<std::uint32_t, 2> turns_{};
 };
 
-/// Where the sensors sit, for /tf_static, of the stamp at which the session begins.
+/// Returns the extrinsics for /tf_static, with the stamp of the begin of the session.
 std::vector<geometry_msgs::TransformStamped> staticTransforms(const Session& session);
 
 }  // namespace urban_nav_sim
