@@ -114,7 +114,7 @@ void CameraNodelet::stream(FrameSource& source) {
       if (!std::exchange(streams, true)) ++openings_;
     }
     if (const TimeNs change = clock_.follow(); change != 0)
-      NODELET_WARN("the host's clock stepped by %lld ms", static_cast<long long>(change / 1'000'000));
+      NODELET_WARN("the host clock stepped by %lld ms", static_cast<long long>(change / 1'000'000));
     for (const DriverEvent& event : takeEvents()) NODELET_WARN("%s", urban_nav_core::printable(event.text).c_str());
     setState(streams ? DriverState::Streaming : DriverState::Configuring, "");
   }

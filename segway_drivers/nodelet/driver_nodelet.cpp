@@ -57,7 +57,7 @@ void DriverNodelet::run() {
     beforeStep(now);
     loop.step(kReaderWait);
     if (const TimeNs step = clock_.follow(); step != 0)
-      NODELET_WARN("the host's clock stepped by %lld ms", static_cast<long long>(step / 1'000'000));
+      NODELET_WARN("the host clock stepped by %lld ms", static_cast<long long>(step / 1'000'000));
     for (const DriverEvent& event : driver_->takeEvents()) {
       if (!event.warning) NODELET_INFO("%s", urban_nav_core::printable(event.text).c_str());
       if (!event.warning) continue;

@@ -129,7 +129,7 @@ std::pair<int, CalibrationSurface> readCalibrationWarp(CalibrationReader& reader
       surface.coefficients = reader.following(std::min(
           kMostCoefficients, static_cast<std::size_t>(surface.count_x) * static_cast<std::size_t>(surface.count_y)));
   }
-  throw UserError(reader.name(), "ends within a surface", "EndWarp");
+  throw UserError(reader.name(), "incomplete surface", "EndWarp");
 }
 
 ImagerCalibration chooseSurfaces(const std::map<int, CalibrationSurface>& surfaces, const CalibrationCamera& camera,

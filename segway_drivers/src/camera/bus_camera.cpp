@@ -50,7 +50,7 @@ class BusCamera : public FrameSource {
     }
     dc1394_camera_free_list(list);
     gone_ = camera_ == nullptr;
-    if (gone_) error = "no such camera; found: " + (found.empty() ? "none" : found);
+    if (gone_) error = "camera not found; available: " + (found.empty() ? "none" : found);
     return !gone_;
   }
   std::optional<std::uint32_t> readRegister(std::uint64_t address) override {
@@ -76,7 +76,7 @@ class BusCamera : public FrameSource {
                                format.packet, 0, 0, format.width, format.height) == DC1394_SUCCESS &&
         dc1394_capture_setup(camera_, kDmaBuffers, DC1394_CAPTURE_FLAGS_DEFAULT) == DC1394_SUCCESS &&
         dc1394_video_set_transmission(camera_, DC1394_ON) == DC1394_SUCCESS;
-    if (!good) error = "the camera or the bus refuses the format";
+    if (!good) error = "the camera or the bus rejects the format";
     return good;
   }
   std::optional<CameraFrame> next(TimeNs timeout) override {

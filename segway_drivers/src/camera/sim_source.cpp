@@ -74,11 +74,11 @@ bool SimSource::open(std::string& error) {
   streams_ = false;
   if (!begin_) begin_ = options_.begin ? options_.begin() : clock_.now();
   if (!begin_) {
-    error = "the session of the simulated devices has not begun";
+    error = "the session of the simulated devices has not started";
     return false;
   }
   if (isGone()) {
-    error = "no such camera on the simulated bus";
+    error = "camera not found on the simulated bus";
     return false;
   }
   if (was_off_) powerOn();
@@ -100,7 +100,7 @@ bool SimSource::writeRegister(std::uint64_t address, std::uint32_t value) {
 
 bool SimSource::start(const CameraFormat&, std::string& error) {
   if (isGone()) {
-    error = "the camera has vanished from the simulated bus";
+    error = "the camera disappeared from the simulated bus";
     return false;
   }
   streams_ = true;

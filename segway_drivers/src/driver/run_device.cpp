@@ -50,7 +50,7 @@ std::vector<DriveWish> readDriveFile(const std::string& path) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const double t = table.number(row, time);
     if (t < 0.0 || t > 1e6 || (!wishes.empty() && 1e9 * t < static_cast<double>(wishes.back().time)))
-      throw UserError(table.where(row), "t_s = " + table.text(row, time), "0...1000000 s, not falling");
+      throw UserError(table.where(row), "t_s = " + table.text(row, time), "0...1000000 s, non-decreasing");
     wishes.push_back(
         {static_cast<TimeNs>(std::llround(1e9 * t)), {table.number(row, linear), table.number(row, angular)}});
   }
@@ -81,7 +81,7 @@ RunResult runDevice(const RunJob& job, const Parameters& parameters,
     base = driver.get();
     core = std::move(driver);
   } else {
-    throw UserError("KIND", job.kind + " does not run", "lms291, xsens_mti, segway_rmp, gps");
+    throw UserError("KIND", job.kind + " cannot be run", "lms291, xsens_mti, segway_rmp, gps");
   }
   if (base == nullptr && !wishes.empty()) throw UserError("--drive", job.kind, "segway_rmp");
 

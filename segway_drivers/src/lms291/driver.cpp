@@ -118,7 +118,7 @@ void LmsDriver::watch(TimeNs now) {
 
 void LmsDriver::takeScan(const LmsStampedScan& scan) {
   if (phase_ == Phase::Listen) {
-    report(false, "streams already");
+    report(false, "already streaming");
     enter(Phase::Stream, now_);
   }
   if (phase_ != Phase::Stream) return;
@@ -151,7 +151,7 @@ void LmsDriver::takeReply(ByteView payload) {
 
 void LmsDriver::takeModeReply(ByteView payload) {
   if (payload[1] != 0) {
-    report(true, "mode refused, code " + std::to_string(payload[1]));
+    report(true, "mode rejected, code " + std::to_string(payload[1]));
     enter(Phase::Find, now_);
     return;
   }
@@ -171,14 +171,14 @@ void LmsDriver::takeModeReply(ByteView payload) {
 }
 
 void LmsDriver::takeStatus(ByteView payload) {
-  if (payload.size > 9 && payload[9] != 0) report(true, "device reports an error; its list has the reason");
+  if (payload.size > 9 && payload[9] != 0) report(true, "device reports an error: see its error list");
   enter(Phase::Type, now_);
 }
 
 void LmsDriver::takeType(ByteView payload) {
   setIdentity(textOfReply(payload));
   if (identity().find("S14") == std::string::npos)
-    report(true, identity() + " is no LMS291-S14: ranges with reflectivity may be refused");
+    report(true, identity() + " is not an LMS291-S14: ranges with reflectivity may be rejected");
   enter(Phase::Configuration, now_);
 }
 
@@ -204,7 +204,7 @@ void LmsDriver::takeConfiguration(ByteView payload) {
 }
 
 void LmsDriver::takeRewritten(ByteView payload) {
-  if (payload[1] != 1) report(true, "configuration refused");
+  if (payload[1] != 1) report(true, "configuration rejected");
   enter(Phase::Configuration, now_);
 }
 

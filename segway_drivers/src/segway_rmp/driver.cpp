@@ -44,7 +44,7 @@ void RmpDriver::takeFrame(const RmpStampedFrame& frame) {
     const double in_force = *(*decodeRmpValues(frame.frame))[0];
     if (std::abs(commanded_) < 0.05 || in_force != 0.0) unheeded_since_ = now_;
     if (now_ - unheeded_since_ > kRmpUnheeded) {
-      report(true, "commands are not taken: was the base switched on before the computer?");
+      report(true, "commands are ignored: check whether the base was switched on before the computer");
       unheeded_since_ = now_;
     }
   }

@@ -33,7 +33,7 @@ std::vector<RecordedRead> readArrivals(const std::string& path) {
     const std::int64_t begin = table.integer(row, offset), time = table.integer(row, arrival);
     if (begin < 0 || time <= 0 || (!reads.empty() && static_cast<std::size_t>(begin) <= reads.back().begin))
       throw urban_nav_core::UserError(table.where(row), "offset or arrival out of order",
-                                      "rising offsets from 0, positive times");
+                                      "increasing offsets from 0, positive times");
     reads.push_back({static_cast<std::size_t>(begin), time});
   }
   return reads;

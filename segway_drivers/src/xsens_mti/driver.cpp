@@ -104,7 +104,8 @@ void MtiDriver::fail() {
   if (phase_ == Phase::Product || phase_ == Phase::Firmware) {  // not supported by every unit
     enter(phase_ == Phase::Product ? Phase::Firmware : Phase::Kind);
   } else if (phase_ == Phase::Find && ignored_ >= kMtiSamplesAsItIs) {
-    report(true, "streams and ignores requests: used as it is; switch it off and on to configure it");
+    report(true,
+           "already streaming and ignores requests: used without configuration; switch it off and on to configure it");
     enter(Phase::Stream);
   } else if (phase_ == Phase::Find && (rate_ + 1) % kMtiRates.size() == known_rate_.value_or(0)) {
     write(mtiResetCommand());

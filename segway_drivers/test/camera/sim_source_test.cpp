@@ -233,7 +233,7 @@ TEST(SimSource, ThereIsNoCameraBeforeTheSessionHasABegin) {
   Bb2Camera camera(stepped.source, {});
   std::string error;
   EXPECT_FALSE(camera.start(error));
-  EXPECT_EQ(error, "the session of the simulated devices has not begun");
+  EXPECT_EQ(error, "the session of the simulated devices has not started");
   begin = kSimBegin;
   EXPECT_TRUE(camera.start(error)) << error;
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bags (format 2.0) read with the standard library and numpy alone, so that what is checked is not what wrote them."""
+"""Reads bags (format 2.0) with only the standard library and numpy, independently of the code under test."""
 import bz2
 import struct
 
@@ -9,7 +9,7 @@ CHUNK, CONNECTION, MESSAGE = 5, 7, 2
 
 
 def _records(data, start, end):
-    """(fields, data) of each record."""
+    """Yields (fields, data) of each record."""
     while start < end:
         size = struct.unpack_from("<I", data, start)[0]
         place, stop, fields = start + 4, start + 4 + size, {}
@@ -24,7 +24,7 @@ def _records(data, start, end):
 
 
 def messages(path, wanted):
-    """(topic, bytes) of each message whose topic, without its first slash, is in `wanted`."""
+    """Yields (topic, bytes) of each message whose topic, without leading slash, is in `wanted`."""
     data, topics = path.read_bytes(), {}
     magic = b"#ROSBAG V2.0\n"
     if not data.startswith(magic):
@@ -51,14 +51,14 @@ def _text(body, place):
 
 
 def header(body, place=0):
-    """Stamp (s), frame, and where the rest begins."""
+    """Returns stamp (s), frame, and the offset of the remaining bytes."""
     _, seconds, nanoseconds = struct.unpack_from("<3I", body, place)
     frame, rest = _text(body, place + 12)
     return seconds + 1e-9 * nanoseconds, frame, rest
 
 
 def transforms(body):
-    """(parent, child, 4x4 matrix) of a tf2_msgs/TFMessage."""
+    """Yields (parent, child, 4x4 matrix) of a tf2_msgs/TFMessage."""
     count, place = struct.unpack_from("<I", body)[0], 4
     for _ in range(count):
         _, parent, place = header(body, place)
@@ -71,7 +71,7 @@ def transforms(body):
 
 
 def scan(body):
-    """Stamp, frame, angles, times after the stamp, ranges of a sensor_msgs/LaserScan."""
+    """Returns stamp, frame, angles, times after the stamp, ranges of a sensor_msgs/LaserScan."""
     stamp, frame, place = header(body)
     first, _, step, apart, _, _, _, count = struct.unpack_from("<7fI", body, place)
     ranges = np.frombuffer(body, "<f4", count, place + 32).astype(float)
@@ -79,31 +79,31 @@ def scan(body):
 
 
 def rate(body):
-    """Stamp, frame, angular velocity of a sensor_msgs/Imu."""
+    """Returns stamp, frame, angular velocity of a sensor_msgs/Imu."""
     stamp, frame, place = header(body)
     return stamp, frame, np.array(struct.unpack_from("<3d", body, place + 32 + 72))
 
 
 def force(body):
-    """Specific force of a sensor_msgs/Imu."""
+    """Returns the specific force of a sensor_msgs/Imu."""
     return np.array(struct.unpack_from("<3d", body, header(body)[2] + 32 + 72 + 24 + 72))
 
 
 def speeds(body):
-    """Stamp, forward speed and yaw rate of a nav_msgs/Odometry."""
+    """Returns stamp, forward speed and yaw rate of a nav_msgs/Odometry."""
     stamp, _, place = header(body)
     place = _text(body, place)[1] + 8 * (7 + 36)
     return stamp, np.array(struct.unpack_from("<d32xd", body, place))
 
 
 def velocity(body):
-    """Stamp, linear velocity of a geometry_msgs/TwistStamped."""
+    """Returns stamp, linear velocity of a geometry_msgs/TwistStamped."""
     stamp, _, place = header(body)
     return stamp, np.array(struct.unpack_from("<3d", body, place))
 
 
 def image(body):
-    """Stamp (ns), pixels of a sensor_msgs/Image of 8 bits in grey."""
+    """Returns stamp (ns), pixels of an 8-bit grey sensor_msgs/Image."""
     _, seconds, nanoseconds = struct.unpack_from("<3I", body)
     place = header(body)[2]
     height, width = struct.unpack_from("<2I", body, place)
@@ -116,7 +116,7 @@ def image(body):
 
 
 def camera_info(body):
-    """D, K, R, P of a sensor_msgs/CameraInfo."""
+    """Returns D, K, R, P of a sensor_msgs/CameraInfo."""
     place = header(body)[2] + 8
     place = _text(body, place)[1]
     count = struct.unpack_from("<I", body, place)[0]
@@ -126,7 +126,7 @@ def camera_info(body):
 
 
 def rotation(quaternion):
-    """Matrices of (..., 4) quaternions x, y, z, w."""
+    """Returns the matrices of (..., 4) quaternions x, y, z, w."""
     x, y, z, w = np.moveaxis(np.asarray(quaternion, float), -1, 0)
     rows = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
             [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],

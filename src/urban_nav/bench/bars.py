@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Visual odometry in the simulated worlds: is its covariance right, what do faults do to it, does it follow a start at 2 cm/s?
+"""Visual odometry in the simulated worlds: consistency of covariance, effects of faults, motion from a start at 2 cm/s.
 
     python3 bars.py consistency FOLDER [--seed N]... [-o bars_consistency.json]
     python3 bars.py faults FOLDER [--seed N]... [--peer NAME=PROGRAM] [-o bars_faults.json]
     python3 bars.py creep FOLDER [--seed N]... [--peer NAME=PROGRAM] [-o bars_creep.json]
 
-Shipped parameters; sessions are simulated into FOLDER unless they are there. Another system beside it: PROGRAM FOLDER POSES takes a KITTI folder and writes
-KITTI's poses.
+Shipped parameters; sessions are simulated into FOLDER unless they exist. Another system for comparison: PROGRAM FOLDER POSES reads a KITTI folder and writes
+poses of KITTI.
 """
 import argparse
 import csv
@@ -20,17 +20,17 @@ import numpy as np
 
 from support import WORLDS, commit, mapped, show, simulated, urban_nav
 
-FRAMES = (50, 100, 200, 400)  # after which the last pose is compared with the truth
+FRAMES = (50, 100, 200, 400)  # number of frames after which the last pose is evaluated
 SEEDS, LENGTH = (7, 8, 9), 20  # s
 FAULT_SEEDS = (7, 8, 9, 10, 11)
-BEGIN, DURATION, SHORT = 1.5, 1.0, 4  # s: of a fault, of its session
+BEGIN, DURATION, SHORT = 1.5, 1.0, 4  # s: start and duration of a fault, duration of its session
 FAULTS = (("drop", ":0.3"), ("freeze", ""), ("swap", ""), ("corrupt", ":0.3"), ("jump", ""), ("unplug", ""), ("nan", ""))
 CREPT, CREEP = (0.01, 0.02, 0.05), 5  # m, s
 RATE = 20  # Hz
 
 
 def first_frames(folder, count):
-    """A KITTI folder with the first frames of another, by links."""
+    """Makes a KITTI folder of links to the first frames of another."""
     part = folder.with_name(f"{folder.name}_{count}")
     if part.exists():
         shutil.rmtree(part)
@@ -45,7 +45,7 @@ def first_frames(folder, count):
 
 
 def ended(summary):
-    """Frames that are not OK, and the error of the last pose."""
+    """Returns the number of frames that are not OK, and the error of the last pose."""
     counts = summary["swf_vo"]["status_counts"]
     return sum(n for status, n in counts.items() if status != "OK"), summary["end"]
 
@@ -80,13 +80,13 @@ def consistency(arguments):
 
 
 def band(runs):
-    """99 % of the mean of so many values of chi-square with 6 degrees of freedom lie in it (Wilson and Hilferty 1931)."""
+    """Returns the 99 % interval of the mean of chi-square values with 6 degrees of freedom (Wilson and Hilferty 1931)."""
     freedom = 6 * runs
     return [freedom * (1 - 2 / (9 * freedom) + z * np.sqrt(2 / (9 * freedom))) ** 3 / runs for z in (-2.5758, 2.5758)]
 
 
 def named(out):
-    """Frames from the beginning of the fault until it is named (status not OK, or a reason), counted in frames that came; the reason; the last status."""
+    """Returns received frames from the start of the fault until it is reported (status not OK, or a reason); the reason; the last status."""
     with open(out / "stats.csv", newline="") as file:
         frames = list(csv.DictReader(file))
     begin = int(frames[0]["stamp_ns"]) + int(1e9 * BEGIN)
@@ -123,10 +123,10 @@ def faults(arguments):
 
 @dataclass
 class Outcome:
-    """What became of one short session."""
+    """Result of one short session."""
     error: float  # m, of the last pose
     nees: float
-    named: str  # frames until the fault was named, and how
+    named: str  # frames until the fault was reported, and the report
     not_ok: int  # frames
     status: str  # of the last frame
     peers: list  # of their last poses, m
@@ -147,7 +147,7 @@ def rms(values):
 
 
 def peers_rms(outcomes):
-    """Of each peer, over the sessions."""
+    """Returns the values of each peer over the sessions."""
     return [rms(errors) for errors in zip(*(one.peers for one in outcomes))]
 
 
@@ -158,7 +158,7 @@ def error_of(poses, folder):
 
 
 def way_of(poses):
-    """From the first place to that of each frame, m."""
+    """Returns the displacement of each frame from the first position, m."""
     places = np.loadtxt(poses).reshape(-1, 3, 4)[:, :, 3]
     return np.linalg.norm(places - places[0], axis=1)
 
@@ -184,11 +184,11 @@ def creep(arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", choices=("consistency", "faults", "creep"))
-    parser.add_argument("folder", type=Path, help="for what is simulated and mapped")
+    parser.add_argument("folder", type=Path, help="folder of simulated sessions and maps")
     parser.add_argument("--seed", type=int, action="append", help=f"default: {SEEDS}, of faults {FAULT_SEEDS}, of creep {SEEDS[0]}")
-    parser.add_argument("--there", action="store_true", help="consistency: of the sessions that are there, no others")
+    parser.add_argument("--there", action="store_true", help="consistency: evaluate only existing sessions")
     parser.add_argument("--peer", action="append", default=[], metavar="NAME=PROGRAM")
-    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    parser.add_argument("-o", "--output", type=Path, help="output table for a README")
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     before = commit()

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Closures with their transforms, made from the truth of simulated sessions: what `urban_nav map --closures` takes where no stage finds them.
+"""Makes closures with their transforms from the truth of simulated sessions, for `urban_nav map --closures`.
 
-Reads trajectory.tum, closures_true.csv and, where it is there, closures_false.csv of each BAG_STEM.truth/ that `simulate` wrote, and finds the places that
-two sessions have in common (all days of a world share one frame). A true closure is the true T_a_b with noise in the frame of a; a false one says that two
-places are nearly one, as a wrong recognition would: 0.3 m and 10 deg of deviation about each axis. Nothing in the file tells them apart.
+Reads trajectory.tum, closures_true.csv and, if it exists, closures_false.csv of each BAG_STEM.truth/ of `simulate`, and finds the common places of
+two sessions (all days of a world share one frame). A true closure is the true T_a_b with noise in the frame of a; a false one states that two
+places nearly coincide, as after a wrong recognition: 0.3 m and 10 deg of deviation about each axis. The file does not distinguish them.
 
-The sessions are called by the stem of their bags, as `map` calls them. Columns as in closures.csv, and behind them the standard deviations of the noise.
+Sessions are named by the stem of their bags, as in `map`. Columns as in closures.csv, followed by the standard deviations of the noise.
 """
 import argparse
 import csv
@@ -20,15 +20,15 @@ from truth import Truth, inverse
 
 COLUMNS = ("session_a", "stamp_a_ns", "session_b", "stamp_b_ns", "probability", "kind", "verdict", "reason", "x", "y", "z", "qx", "qy", "qz", "qw",
            "weight", "sigma_m", "sigma_rad")
-SAME_PLACE, OTHER_PLACE = 7.5, 10.0  # m, as the simulator has them
+SAME_PLACE, OTHER_PLACE = 7.5, 10.0  # m, as in the simulator
 APART = 30.0  # s, within a session
-LOOK = 0.5  # s, from panorama to panorama
+LOOK = 0.5  # s between panoramas
 WRONG_PLACE, WRONG_TURN = 0.3, np.radians(10.0)  # of a false closure, each axis
 
 
 class Session:
     def __init__(self, path):
-        """`path`: the folder of the truth, or the bag beside which it lies."""
+        """`path`: the folder of the truth, or its bag."""
         folder = path if path.suffix == ".truth" else path.with_suffix(".truth")
         for name in ("trajectory.tum", "closures_true.csv"):
             if not (folder / name).exists():
@@ -44,7 +44,7 @@ class Session:
 
 
 def closures_of(path):
-    """(stamp a, stamp b) in ns."""
+    """Returns pairs (stamp a, stamp b) in ns."""
     if not path.exists():
         return []
     with open(path) as file:
@@ -52,7 +52,7 @@ def closures_of(path):
 
 
 def in_common(earlier, later):
-    """For each look of `later`, the nearest of `earlier` if that is the same place."""
+    """Returns for each sample of `later` the nearest of `earlier` if it is the same place."""
     found = []
     for stamp, place in zip(later.looks, later.places):
         distances = np.linalg.norm(earlier.places - place, axis=1)
@@ -63,7 +63,7 @@ def in_common(earlier, later):
 
 
 def true_pairs(sessions):
-    """(session a, stamp a, session b, stamp b)."""
+    """Returns (session a, stamp a, session b, stamp b)."""
     pairs = [(i, a, i, b) for i, session in enumerate(sessions) for a, b in session.closures[True]]
     for j, later in enumerate(sessions):
         for i, earlier in enumerate(sessions[:j]):
@@ -72,7 +72,7 @@ def true_pairs(sessions):
 
 
 def false_pairs(sessions, count, chance):
-    """Those of the simulator's files, and drawn ones until there are `count`."""
+    """Returns those of the files of the simulator, and random ones up to `count`."""
     pairs = [(i, a, i, b) for i, session in enumerate(sessions) for a, b in session.closures[False]]
     for _ in range(1000 * count):
         if len(pairs) >= count:
@@ -90,7 +90,7 @@ def false_pairs(sessions, count, chance):
 
 
 def moved_by(pose, noise):
-    """[Exp(phi) R, t + rho], both in the parent frame."""
+    """Returns [Exp(phi) R, t + rho], both in the parent frame."""
     result = pose.copy()
     result[:3, :3] = cv2.Rodrigues(noise[3:])[0] @ pose[:3, :3]
     result[:3, 3] += noise[:3]
@@ -98,7 +98,7 @@ def moved_by(pose, noise):
 
 
 def quaternion(turn):
-    """x, y, z, w of a rotation matrix, w >= 0: from the largest of the four, which is never near zero (Shepperd 1978)."""
+    """Returns x, y, z, w of a rotation matrix, w >= 0, by the largest component (Shepperd 1978)."""
     products = np.zeros((4, 4))  # 4 q q^T
     products[:3, :3] = turn + turn.T + (1 - np.trace(turn)) * np.eye(3)
     products[:3, 3] = products[3, :3] = turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]
@@ -108,7 +108,7 @@ def quaternion(turn):
 
 
 def rows_of(sessions, percent, sigma_m, sigma_rad, seed, every=1):
-    """Rows of the file and, beside them, which are true."""
+    """Returns the rows of the file and whether each is true."""
     chance = np.random.default_rng(seed)
     right = true_pairs(sessions)[::every]
     wrong = false_pairs(sessions, round(0.01 * percent * len(right)), chance)
@@ -130,13 +130,13 @@ def rows_of(sessions, percent, sigma_m, sigma_rad, seed, every=1):
 
 
 def ends(row):
-    """Session and stamp of both ends of a row, of the file offered or of the closures.csv of a map."""
+    """Returns session and stamp of both ends of a row of the input file or of closures.csv of a map."""
     a, stamp_a, b, stamp_b = (row[key] for key in COLUMNS[:4]) if isinstance(row, dict) else row[:4]
     return a, int(stamp_a), b, int(stamp_b)
 
 
 def outcomes(path, rows, true):
-    """Each row of a map's closures.csv and whether it is true, known from the `rows` offered: a map writes them in the order of time, not of its input."""
+    """Returns each row of closures.csv of a map and whether it is true, by the input `rows`; a map writes closures in the order of time."""
     truth = {ends(row): right for row, right in zip(rows, true)}
     with open(path) as file:
         return [(row, truth[ends(row)]) for row in csv.DictReader(file)]
@@ -145,11 +145,11 @@ def outcomes(path, rows, true):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("session", type=Path, nargs="+", help="a simulated bag, or its BAG_STEM.truth; in the order in which map gets them")
-    parser.add_argument("-o", "--output", type=Path, required=True, help="the closures; OUTPUT.truth beside it says of each row whether it is true")
-    parser.add_argument("--false", type=float, default=0.0, metavar="PERCENT", help="false closures, of the number of true ones")
-    parser.add_argument("--sigma-m", type=float, default=0.05, help="of x, y and z of a true one (default 0.05)")
-    parser.add_argument("--sigma-deg", type=float, default=0.5, help="about x, y and z (default 0.5)")
-    parser.add_argument("--every", type=int, default=1, metavar="N", help="take each Nth true closure alone")
+    parser.add_argument("-o", "--output", type=Path, required=True, help="file of closures; OUTPUT.truth states for each row whether it is true")
+    parser.add_argument("--false", type=float, default=0.0, metavar="PERCENT", help="false closures, relative to the number of true ones")
+    parser.add_argument("--sigma-m", type=float, default=0.05, help="standard deviation of x, y and z of true closures (default 0.05)")
+    parser.add_argument("--sigma-deg", type=float, default=0.5, help="standard deviation of rotation about x, y and z (default 0.5)")
+    parser.add_argument("--every", type=int, default=1, metavar="N", help="use only every Nth true closure")
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     if not (arguments.false >= 0 and arguments.sigma_m > 0 and arguments.sigma_deg > 0 and arguments.every > 0):

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How well the colours of a map predict panoramas that took no part in them: every fifth panorama is removed from a
-// copy of the store, the map is coloured from the others, and what it shows in the removed ones is compared with them,
-// with one gain for each image.
+// Accuracy of map colours for held-out panoramas: every fifth panorama is removed from a copy of the store, the map is
+// coloured from the others, and its projections into the removed ones are compared with them, with one gain per image.
 //
 //   urban_nav-bench-colour_prediction [-o FILE.json] OUT...
 //
@@ -43,7 +42,7 @@ using urban_nav_store::StoredPanorama;
 using urban_nav_store::StoredPanoramaCamera;
 using urban_nav_store::TableStore;
 
-constexpr std::size_t kLeftOutShare = 5;  // one in so many
+constexpr std::size_t kLeftOutShare = 5;  // one of this number
 constexpr double kMemoryMb = 400.0;
 constexpr double kFarthestPoint = 20.0, kNearestPoint = 0.3;  // m
 constexpr StampNs kLongestGap = 500'000'000;
@@ -51,7 +50,7 @@ constexpr double kSaturated = 250.0, kDark = 4.0;
 
 using Bgr = std::array<double, 3>;
 
-/// CIE 1976 L*a*b* of an sRGB colour, white D65.
+/// Returns CIE 1976 L*a*b* of an sRGB colour, white D65.
 std::array<double, 3> toLab(const Bgr& bgr) {
   std::array<double, 3> linear{};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -71,7 +70,7 @@ double deltaE(const Bgr& a, const Bgr& b) {
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
-/// An image that took no part in the colours, and what the map says of it.
+/// A held-out image and the colours predicted by the map.
 struct LeftOutView {
   urban_nav_core::RawCamera camera;
   Pose T_camera_map;
@@ -124,7 +123,7 @@ std::vector<LeftOutView> leaveOut(Store& store, const laser_mapper::MappedSessio
   return views;
 }
 
-/// Mean of the pixels that a point of the map covers.
+/// Returns the mean of the pixels covered by a map point.
 Bgr patchMean(const Picture& picture, const ImagePoint& at, double edge, double focal) {
   const int half = std::clamp(static_cast<int>(std::lround(0.5 * (edge * focal / at.depth - 1.0))), 0, 3);
   const int u0 = static_cast<int>(std::lround(at.u)), v0 = static_cast<int>(std::lround(at.v));

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""kill -9 at random moments, and a full disk: is all there that was committed, and does the run started again end with the bytes of an unbroken one?
+"""kill -9 at random times, and a full disk: tests that all committed rows exist and that a restarted run gives the bytes of an uninterrupted one.
 
     python3 crash.py FOLDER [map] [live] [disk] [places] [live_places] [--kills N] [-o crash.json]
 
-`map`: the whole process group of `urban_nav map` over two small simulated sessions with closures. `live`: the process of the nodelet pose_graph, fed with a
-recording at twenty times its speed and keeping it in its store. Both are killed, started again and killed again until a run comes to its end, which is
-compared with one that was never killed; then all begins anew. `places`, `live_places`: the same of `map` with place recognition in panoramas, without given
-closures, and of the nodelet fabmap_node; their places are compared, too. What is committed is what another process reads while they write. `disk`: both again on a
-file system that is too small for them and then grows (needs root: a tmpfs is mounted). `live`, `live_places` and the second half of `disk` need a sourced workspace.
+`map`: the whole process group of `urban_nav map` over two small simulated sessions with closures. `live`: the process of the nodelet pose_graph, with a
+recording at twenty times its speed and a store. Both are killed and restarted repeatedly until a run completes, which is compared with an uninterrupted one;
+then everything is repeated. `places`, `live_places`: the same for `map` with place recognition in panoramas, without given closures, and for the nodelet
+fabmap_node; their places are also compared. Committed rows are those that another process reads during writing. `disk`: both on a file system that is too small
+and then grows (needs root: a tmpfs is mounted). `live`, `live_places` and the second half of `disk` need a sourced workspace.
 """
 import argparse
 import os
@@ -29,13 +29,13 @@ COLUMNS = ("killed", "kills", "`info` opens", "less than was committed", "runs t
 SAME = ("trajectory.tum", "trajectory.kitti", "covariance.csv", "relative_covariance.csv", "closures.csv", "graph.g2o")
 PLACES = ("place", "keyframe_place")
 PARTS = ("map", "live", "disk", "places", "live_places")
-PROGRAM = TOP / "build/ws/devel/lib/urban_nav/urban_nav"  # what the command at the top starts, without its look at what is to be built
-PERIOD = 0.05  # s between two looks into a store that is being written
-STARTUP = 1.5  # s that a nodelet takes at least until it is fed
+PROGRAM = TOP / "build/ws/devel/lib/urban_nav/urban_nav"  # started by the command at the top, without its check of the build
+PERIOD = 0.05  # s between reads of a store that is being written
+STARTUP = 1.5  # s, minimum time until a nodelet receives data
 
 
 def rows(store):
-    """Rows of each table and session; None where there is no store yet."""
+    """Returns the number of rows of each table and session; None if there is no store yet."""
     try:
         with sqlite3.connect(f"file:{store}?mode=ro", uri=True, timeout=5) as file:
             return {(table, session): count for table, session, count in file.execute("SELECT name, session, count FROM tally")}
@@ -44,7 +44,7 @@ def rows(store):
 
 
 class Watch:
-    """Looks at what is committed, all the time, as any reader could."""
+    """Polls the committed rows continuously, as a reader."""
 
     def __init__(self, store):
         self.store, self.seen, self.ending = store, None, threading.Event()
@@ -106,13 +106,13 @@ def equal(a, b, names):
 
 
 def places(store):
-    """All rows of places, with their words, descriptors and thumbnails."""
+    """Returns all rows of places with words, descriptors and thumbnails."""
     with sqlite3.connect(f"file:{store}?mode=ro", uri=True, timeout=5) as file:
         return [file.execute(f"SELECT * FROM {table} ORDER BY session, stamp_ns").fetchall() for table in PLACES]
 
 
 class Inputs:
-    """Two days of the same short way, with the closures between them."""
+    """Two days of one short route, with the closures between them."""
 
     def __init__(self, folder, duration):
         self.bags = [folder / f"crash_day{day}.bag" for day in (1, 2)]
@@ -192,7 +192,7 @@ def nodes(store):
 
 
 def finish(feeder, store, folder, name):
-    """What the graph is at the end of the recording, by way of ~save, as files."""
+    """Returns the graph at the end of the recording as files of ~save."""
     if not wait_until(lambda: sum(count for (table, _), count in (rows(store) or {}).items() if table == "edge") == STEPS + CLOSURES):
         sys.exit(f"{store}: not all that was fed has come")
     feeder.optimized()
@@ -203,7 +203,7 @@ def finish(feeder, store, folder, name):
 
 
 def age_of(store, feeder, now):
-    """How long before `now` the first step was fed that is not in the store."""
+    """Returns the age at `now` of the first published step that is not in the store."""
     stored = nodes(store) - 1 if store.exists() else -1
     missing = feeder.fed[max(stored, 0):]
     return now - missing[0] if missing else 0.0
@@ -215,7 +215,7 @@ def remove(store):
 
 
 class GraphNodelet:
-    """The nodelet pose_graph; files of what ~save writes are compared."""
+    """The nodelet pose_graph; compares the files of ~save."""
 
     name = "nodelet `pose_graph`"
 
@@ -238,7 +238,7 @@ class GraphNodelet:
 
 
 class PlacesNodelet:
-    """The nodelet fabmap_node; the places of its store are compared."""
+    """The nodelet fabmap_node; compares the places of its store."""
 
     name = "nodelet `fabmap_node`"
 
@@ -256,7 +256,7 @@ class PlacesNodelet:
         return places(self.store)
 
     def age(self, now):
-        """How long before `now` the first panorama was fed that is not in the store; those that were there from a run before hide it."""
+        """Returns the age at `now` of the first published panorama that is not in the store; those of a previous run mask it."""
         with_places = sum(count for (table, _), count in (rows(self.store) or {}).items() if table == "place") if self.store.exists() else 0
         missing = self.feeder.fed[with_places:]
         return now - missing[0] if missing else 0.0
@@ -279,8 +279,8 @@ def kill_live(nodelet, kills, chance):
             if feeder.feed(moment):
                 ended = last or not wait_until(lambda m=moment: time.monotonic() > m, max(0.0, moment - time.monotonic()))
                 if not ended:
-                    ended = chance.random() < 0.3  # as if it had not been killed
-            if feeder.fed:  # on a busy machine it starts more slowly
+                    ended = chance.random() < 0.3  # as if it was not killed
+            if feeder.fed:  # a busy machine starts it more slowly
                 startup = max(STARTUP, feeder.fed[0] - begun)
             if ended:
                 result = nodelet.finish(whole is None)
@@ -298,7 +298,7 @@ def kill_live(nodelet, kills, chance):
 
 
 class SmallDisk:
-    """A file system of some MB; None where it is not allowed to mount one."""
+    """Mounts a file system of a few MB; None without permission to mount."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -315,7 +315,7 @@ class SmallDisk:
 
 
 def fill_map(folder, inputs):
-    """Rooms of several sizes, so that it is full at several moments."""
+    """Runs with several disk sizes, so that the disk becomes full at different times."""
     whole, _ = whole_map(folder, inputs)
     notes = []
     with SmallDisk(folder / "crash_disk") as disk:
@@ -367,14 +367,14 @@ def fill_live(folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="for what is simulated and mapped; the bags that are there already are taken")
-    parser.add_argument("part", nargs="*", help=f"{', '.join(PARTS)}; default: all")
-    parser.add_argument("--kills", type=int, default=100, help="of each (default 100)")
-    parser.add_argument("--duration", type=int, default=10, help="s, of each simulated session (default 10)")
-    parser.add_argument("--seed", type=int, default=1, help="of the moments")
-    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    parser.add_argument("folder", type=Path, help="folder of simulated sessions and maps; existing bags are used")
+    parser.add_argument("part", nargs="*", help=f"{', '.join(PARTS)} (default: all)")
+    parser.add_argument("--kills", type=int, default=100, help="number of kills of each part (default 100)")
+    parser.add_argument("--duration", type=int, default=10, help="s, duration of each simulated session (default 10)")
+    parser.add_argument("--seed", type=int, default=1, help="seed of the times of kills")
+    parser.add_argument("-o", "--output", type=Path, help="output table for a README")
     arguments = parser.parse_args()
-    urban_nav("--help")  # builds it where it is missing
+    urban_nav("--help")  # builds it if it is missing
     parts = arguments.part or PARTS
     if set(parts) - set(PARTS):
         parser.error(f"the parts are {', '.join(PARTS)}")

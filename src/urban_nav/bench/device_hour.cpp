@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An hour of each serial device and its driver, and a minute of each camera, on a stepped clock: time that it takes,
-// and memory.
+// Time and memory of an hour of each serial device and its driver, and of a minute of each camera, on a stepped clock.
 //
 //   urban_nav-bench-device_hour [-o FILE.json] [--seconds 3600]
 #include <unistd.h>
@@ -20,7 +19,7 @@ namespace {
 
 using urban_nav_core::testing::cell;
 
-/// Memory of this process, MB.
+/// Returns the memory of this process, MB.
 double residentMb() {
   std::ifstream file("/proc/self/statm");
   double pages = 0.0, resident = 0.0;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the drivers publish on simulated devices, recorded, beside the session's own bag: messages, values, stamps, and the odometry of both.
+"""Compares recorded messages of the drivers on simulated devices with the bag of the session: messages, values, stamps, and odometry.
 
   driver_bag.py BAG [-o FILE.json] [--work DIR]
 
@@ -23,13 +23,13 @@ except ImportError:
 
 TOPICS = ("/laser_left/scan", "/laser_right/scan", "/imu/data", "/wheel_odom", "/gps/fix", "/stereo/left/image_raw", "/stereo/right/image_raw")
 INFOS = ("/stereo/left/camera_info", "/stereo/right/camera_info")
-LEAD, PATIENCE = 8, 12  # s for the session to begin, and for its end
-SIZE = 384, 512  # rows and columns of the session's images
-MOST_RMS = 5.0  # grey levels, of images that count as equal
+LEAD, PATIENCE = 8, 12  # s until the start of the session, and after its end
+SIZE = 384, 512  # rows and columns of the images of the session
+MOST_RMS = 5.0  # grey levels, limit of equal images
 
 
 def value(topic, message):
-    """What tells one measurement from another."""
+    """Returns the key of a measurement."""
     if topic.endswith("scan"):
         return tuple(np.round(message.ranges, 3)), tuple(message.intensities)
     if topic == "/imu/data":
@@ -40,7 +40,7 @@ def value(topic, message):
 
 
 def grey(message):
-    """The image in the size of the session's."""
+    """Returns the image at the size of those of the session."""
     image = np.frombuffer(message.data, np.uint8).reshape(message.height, -1)[:, :message.width].astype(np.float32)
     if image.shape == SIZE:
         return image
@@ -53,7 +53,7 @@ def grey(message):
 
 
 def read(path):
-    """{topic: [(stamp s, value)]}; images as they are."""
+    """Returns {topic: [(stamp s, value)]}; images unchanged."""
     messages = {topic: [] for topic in TOPICS}
     with rosbag.Bag(str(path)) as bag:
         for topic, message, _ in bag.read_messages(["/" + t.strip("/") for t in TOPICS] + [t.strip("/") for t in TOPICS]):
@@ -64,7 +64,7 @@ def read(path):
 
 
 def record(session, recorded, duration):
-    """Drivers on simulated devices in real time, and a recorder."""
+    """Runs drivers on simulated devices in real time, and a recorder."""
     live_graph.begin_master()
     recorder = live_graph.quietly("rosbag", "record", "--buffsize=1024", "-O", str(recorded), *TOPICS, *INFOS)
     launch = live_graph.quietly("roslaunch", "urban_nav_launch", "drivers.launch", f"simulated:={session}", f"ports:={recorded.parent}/ports", "ladybug:=false")
@@ -76,7 +76,7 @@ def record(session, recorded, duration):
 
 
 def add_mounting(session, recorded):
-    """The places of the sensors, which the robot's description publishes and no driver."""
+    """Publishes the poses of the sensors, as the robot description does."""
     with rosbag.Bag(str(session)) as bag, rosbag.Bag(str(recorded), "a") as out:
         begin = out.get_start_time()
         for topic, message, time_ in bag.read_messages(["/tf_static"]):
@@ -88,7 +88,7 @@ def match(theirs, ours, topic):
     if topic.endswith("image_raw"):
         at = np.array([stamp for stamp, _ in theirs])
         best, pairs = None, []
-        for start in range(min(40, len(theirs))):  # the first pairs come while the camera starts
+        for start in range(min(40, len(theirs))):  # the first pairs arrive while the camera starts
             difference = float(np.sqrt(np.mean(np.square(theirs[start][1] - ours[0][1]))))
             if best is None or difference < best[0]:
                 best = difference, start
@@ -105,7 +105,7 @@ def match(theirs, ours, topic):
 
 
 def odometry_error(bag, session, folder, shift):
-    """Absolute error of visual odometry, m, against the session's truth, its stamps shifted by so many seconds."""
+    """Returns the absolute error of visual odometry, m, with stamps of the truth shifted by a number of seconds."""
     urban_nav("map", bag, "--stages", "vo", "--out", folder)
     truth = np.loadtxt(session.with_suffix(".truth") / "trajectory.tum")
     truth[:, 0] += shift

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Faults of drivers and computers as changes of the messages of a sound session."""
+"""Faults of drivers and computers as changes of the messages of a fault-free session."""
 import copy
 from dataclasses import dataclass
 from typing import Callable
@@ -9,7 +9,7 @@ import numpy as np
 try:
     import rospy
     from sensor_msgs.msg import PointCloud2, PointField
-except ImportError:  # which the program states
+except ImportError:  # reported by the program
     rospy = None
 
 LEFT, RIGHT, IMU, WHEELS, GPS, TF = "laser_left/scan", "laser_right/scan", "imu/data", "wheel_odom", "gps/fix", "tf_static"
@@ -24,7 +24,7 @@ WITH_GPS = "--set", "pose_graph.gps=true"
 
 @dataclass(frozen=True)
 class Change:
-    """`alter(topic, message, t)` changes a message, t seconds after the start; False leaves it out, a list of (topic, message, recording) replaces it."""
+    """`alter(topic, message, t)` changes a message, t seconds after the start; False omits it, a list of (topic, message, recording) replaces it."""
     topics: tuple = ()
     alter: Callable = None
 
@@ -55,7 +55,7 @@ def fault(name, topics, alter, words, **more):
 
 
 def scaled(**factors):
-    """Multiplies numbers, and lists of them, of a message."""
+    """Multiplies numbers and lists of numbers of a message."""
     def alter(message, _):
         for key, factor in factors.items():
             value = getattr(message, key)
@@ -95,7 +95,7 @@ def rates(factor):
 
 
 def distances(factor):
-    """Positions and speeds of wheel odometry."""
+    """Changes positions and speeds of wheel odometry."""
     def alter(message, _):
         p, v = message.pose.pose.position, message.twist.twist.linear
         p.x, p.y, v.x = factor * p.x, factor * p.y, factor * v.x
@@ -103,7 +103,7 @@ def distances(factor):
 
 
 def place(frame, change):
-    """Changes the transform of a frame; False leaves it out."""
+    """Changes the transform of a frame; False omits it."""
     def alter(message, _):
         message.transforms = [t for t in message.transforms if t.child_frame_id != frame or change(t.transform) is not False]
     return alter
@@ -131,20 +131,20 @@ def contradicted(topic, message, _):
 
 
 def renamed(**names):
-    """Topics by other names; slashes are two underscores."""
+    """Renames topics; slashes are two underscores."""
     table = {old.replace("__", "/"): new.replace("__", "/") for old, new in names.items()}
     return tuple(table), lambda topic, message, _: [("/" + table[topic], message, 0)]
 
 
 def exchanged(topic, scan, _):
-    """The cables of the lasers: each driver publishes the scans of the other device in its own name."""
+    """Exchanges the cables of the lasers: each driver publishes the scans of the other device under its name."""
     here, there = ("laser_left", "laser_right") if "left" in topic else ("laser_right", "laser_left")
     scan.header.frame_id = scan.header.frame_id.replace(here, there)
     return [("/" + topic.replace(here, there), scan, 0)]
 
 
 def as_clouds(topic, scan, _):
-    """A planar laser whose driver publishes points."""
+    """Publishes a planar laser as points."""
     distance = np.array(scan.ranges)
     keep = np.isfinite(distance) & (distance > scan.range_min) & (distance < scan.range_max)
     angle = scan.angle_min + scan.angle_increment * np.arange(len(distance))
@@ -158,7 +158,7 @@ def as_clouds(topic, scan, _):
 
 
 def sixteen_bits(message, _):
-    """Twelve bits in sixteen, and one pixel that is always bright."""
+    """Stores twelve bits in sixteen, with one pixel always bright."""
     grey = np.frombuffer(message.data, np.uint8).reshape(message.height, message.step)[:, :message.width].astype("<u2") * 16
     grey[5, 5] = 65535
     message.encoding, message.step, message.is_bigendian, message.data = "mono16", 2 * message.width, 0, grey.tobytes()
@@ -171,7 +171,7 @@ def baseline(factor):
 
 
 def between_fixes(topic, fix, _):
-    """The receiver states 0, 0 between its fixes."""
+    """The receiver reports 0, 0 between its fixes."""
     lost = copy.deepcopy(fix)
     lost.header.stamp += rospy.Duration(0.05)
     lost.latitude = lost.longitude = lost.altitude = 0.0
@@ -183,7 +183,7 @@ HALF = 7.5  # s
 
 
 def in_two(shift):
-    """Two recordings; the stamps of the second one moved."""
+    """Makes two recordings with shifted stamps of the second one."""
     def alter(topic, message, t):
         if topic == TF:
             return [("/" + topic, copy.deepcopy(message), 0), ("/" + topic, message, 1)]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Processor time of each driver: of serial devices with their transport behind pseudo-terminals in real time, of
-// cameras from frames in memory.
+// Processor time of each driver: for serial devices with transport over pseudo-terminals in real time, for cameras from
+// frames in memory.
 //
 //   urban_nav-bench-driver_load [-o FILE.json] [--seconds 20]
 
@@ -25,11 +25,11 @@ using urban_nav_core::testing::cell;
 using urban_nav_core::testing::threadMs;
 
 struct Load {
-  double share = 0.0;  ///< of a core
-  double rate = 0.0;   ///< messages a second
+  double share = 0.0;  ///< share of a core
+  double rate = 0.0;   ///< messages per second
 };
 
-/// Runs a driver as its nodelet does, with waits of 2 ms, while the device is served in another thread.
+/// Runs a driver like its nodelet, with waits of 2 ms, and the device in another thread.
 Load runSerial(urban_nav::bench::DeviceSession& session, double seconds, const std::string& folder) {
   const std::string port = folder + "/port";
   const auto link = urban_nav_sim::openPseudoTerminal(port);
@@ -51,7 +51,7 @@ Load runSerial(urban_nav::bench::DeviceSession& session, double seconds, const s
   return load;
 }
 
-/// Of frames of 20 s.
+/// Returns the processor time for frames of 20 s.
 Load runCamera(const urban_nav::bench::CameraSession& session) {
   constexpr double kDuration = 20.0;
   const double before = 1e-3 * threadMs();

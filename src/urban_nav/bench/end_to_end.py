@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From two days in a simulated world to one map: odometry, closures of which some are false, and relaxation, through `urban_nav map` as a user would.
+"""From two days in a simulated world to one map by `urban_nav map`: odometry, closures of which some are false, and relaxation.
 
 Each case is WORLD:SEED:SECONDS of the first day:SECONDS of the second one. The closures come from the truth (closures.py): 0.05 m and 0.5 deg of noise about
-each axis, and false ones that say that two places are nearly one. Four ways to map them:
+each axis, and false ones that state that two places nearly coincide. Four ways to map them:
   relaxed    as shipped
   leaning    pose_graph.gravity=false: roll and pitch are those of odometry and closures
-  trusting   pose_graph.robust=false: every closure is believed
-  apart      none of the true closures between the days, but all false ones: there are two maps, and nothing may say otherwise
+  trusting   pose_graph.robust=false: every closure is accepted
+  apart      between the days only the false closures: the result must be two maps
 
-The error is that of all poses of both days in one frame, the first pose of the first day upon its truth. Odometry has no such frame: its error is that of each
-day from its own first pose, which flatters it.
+The error is that of all poses of both days in one frame, aligned at the first pose of the first day. Odometry has no such frame: its error is that of each day
+relative to its first pose, which is favourable to it.
 """
 import argparse
 import json
@@ -27,7 +27,7 @@ SENSORS = "stereo,imu,wheels"
 
 
 def driven(folder, case):
-    """The bags of both days; what is there already is taken."""
+    """Returns the bags of both days; existing ones are used."""
     world, seed, *durations = case.split(":")
     bags = []
     for day, duration in enumerate(durations, 1):
@@ -36,7 +36,7 @@ def driven(folder, case):
 
 
 def offered(bags, way, arguments, path):
-    """Writes the closures; their rows and which of them are true."""
+    """Writes the closures; returns their rows and whether each is true."""
     sessions = [closures.Session(bag) for bag in bags]
     rows, true = closures.rows_of(sessions, arguments.false, arguments.sigma_m, float(np.radians(arguments.sigma_deg)), arguments.seed)
     if way == "apart":
@@ -57,7 +57,7 @@ def root_mean_square(values, weights):
 
 
 def up_of_first_pose(trajectory):
-    """The direction of z in the axes of the first pose of a file in TUM's form."""
+    """Returns the direction of z in the axes of the first pose of a file in TUM format."""
     line = next(line for line in Path(trajectory).read_text().splitlines() if not line.startswith("#"))
     x, y, z, w = map(float, line.split()[4:8])
     return np.array([2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)])
@@ -87,7 +87,7 @@ def row_of(case, way, bags, arguments):
              f"{sum(wrong)} of {len(wrong)}", f"{graph['sessions_joined']} of {len(days)}", f"{before:.3f}"]
     if graph["sessions_joined"] == len(days):
         cells += [f"{errors['ate_m']:.3f}", f"{100 * errors['ate_m'] / driven_m:.3f} %", f"{before / errors['ate_m']:.1f}"]
-    else:  # no frame in common: each in its own
+    else:  # no common frame: each in its own
         after = root_mean_square([day["ate_m"] for day in days], frames)
         cells += [f"{after:.3f} (two frames)", f"{100 * after / driven_m:.3f} %", f"{before / after:.1f}"]
     return [*cells, *(f"{np.average([day[key] for day in days], weights=frames):.1f}" for key in ("nees_odometry", "nees")),
@@ -97,14 +97,14 @@ def row_of(case, way, bags, arguments):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="for what is simulated and mapped; sessions that are there already are taken")
+    parser.add_argument("folder", type=Path, help="folder of simulated sessions and maps; existing sessions are used")
     parser.add_argument("--case", action="append", help="WORLD:SEED:SECONDS:SECONDS, repeatable (default quad:7:300:300)")
     parser.add_argument("--way", action="append", choices=WAYS, help="repeatable (default: all)")
-    parser.add_argument("--false", type=float, default=20.0, metavar="PERCENT", help="false closures, of the number of true ones (default 20)")
-    parser.add_argument("--sigma-m", type=float, default=0.05, help="of x, y and z of a true one (default 0.05)")
-    parser.add_argument("--sigma-deg", type=float, default=0.5, help="about x, y and z (default 0.5)")
-    parser.add_argument("--seed", type=int, default=1, help="of the closures")
-    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    parser.add_argument("--false", type=float, default=20.0, metavar="PERCENT", help="false closures, relative to the number of true ones (default 20)")
+    parser.add_argument("--sigma-m", type=float, default=0.05, help="standard deviation of x, y and z of true closures (default 0.05)")
+    parser.add_argument("--sigma-deg", type=float, default=0.5, help="standard deviation of rotation about x, y and z (default 0.5)")
+    parser.add_argument("--seed", type=int, default=1, help="seed of the closures")
+    parser.add_argument("-o", "--output", type=Path, help="output table for a README")
     arguments = parser.parse_args()
     measured = commit()
     arguments.folder.mkdir(parents=True, exist_ok=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Do cameras, lasers, gyroscope and poses of a simulated session agree on one truth? Asked with numpy and OpenCV alone:
+"""Tests the consistency of cameras, lasers, gyroscope and poses of a simulated session with only numpy and OpenCV:
 
     urban_nav simulate --world quad --seed 7 --duration 20 --sensors stereo,lasers,imu --folder quad -o quad.bag
     python3 exactness.py quad.bag quad [-o exactness.json]
@@ -16,8 +16,8 @@ import bags
 from support import commit, show
 from truth import Surface, Truth, angle, inverse, moved
 
-NEAR, FAR = 1.0, 6.0  # m of depth in which a pair measures well
-STEP = 6              # frames from one to the next whose motion is looked for: some 0.4 m
+NEAR, FAR = 1.0, 6.0  # m of depth in which stereo is accurate
+STEP = 6              # frames between which motion is estimated: about 0.4 m
 
 
 class Session:
@@ -50,13 +50,13 @@ class Session:
         return cv2.imread(str(self.folder / f"image_{side}" / f"{i:06d}.png"), cv2.IMREAD_GRAYSCALE)
 
     def points(self, pixels, disparity):
-        """In the left camera."""
+        """Returns points in the left camera."""
         rays = np.column_stack([pixels, np.ones(len(pixels))]) @ np.linalg.inv(self.camera).T
         return rays * (self.bf / disparity)[:, None]
 
 
 def followed(a, b, corners):
-    """Where corners of a are in b, by Lucas and Kanade; which of them come back to where they began."""
+    """Returns the positions in b of corners of a (Lucas and Kanade), and which of them return to their start."""
     how = dict(winSize=(13, 13), maxLevel=4, criteria=(3, 50, 0.001))
     there, ok, _ = cv2.calcOpticalFlowPyrLK(a, b, corners, None, **how)
     back, ok_back, _ = cv2.calcOpticalFlowPyrLK(b, a, there, None, **how)
@@ -65,7 +65,7 @@ def followed(a, b, corners):
 
 
 def poses(session):
-    """poses.txt beside the trajectory, both seen from the first left camera."""
+    """Compares poses.txt with the trajectory, both relative to the first left camera."""
     rows = np.loadtxt(session.folder / "poses.txt").reshape(-1, 3, 4)
     if len(rows) != len(session.eyes):
         raise ValueError(f"{len(rows)} poses in poses.txt, {len(session.eyes)} left images in the bag")
@@ -79,7 +79,7 @@ def poses(session):
 
 
 def corners_all_over(image, size=64):
-    """Of each square of the picture the strongest: ground and walls count alike."""
+    """Returns the strongest corner of each square of the image, so that ground and walls have equal weight."""
     found = []
     for v in range(0, image.shape[0], size):
         for u in range(0, image.shape[1], size):
@@ -90,7 +90,7 @@ def corners_all_over(image, size=64):
 
 
 def motion(session):
-    """Corners of a pair, set into space by their disparity, and found again: solvePnP says how the camera moved."""
+    """Triangulates corners of a pair, tracks them, and estimates camera motion by solvePnP."""
     told, true, apart, turns = [], [], [], []
     for i in range(0, len(session.eyes) - STEP, STEP):
         left, right, later = session.image(0, i), session.image(1, i), session.image(0, i + STEP)
@@ -124,7 +124,7 @@ def motion(session):
 
 
 def by_blocks(session, i, matcher):
-    """StereoSGBM: a pixel and its disparity, for 3000 of them."""
+    """StereoSGBM: pixels and disparities, 3000 of them."""
     disparity = matcher.compute(session.image(0, i), session.image(1, i)) / 16.0
     v, u = np.nonzero((disparity > session.bf / FAR) & (disparity < min(62, session.bf / NEAR)))
     some = np.linspace(0, len(v) - 1, min(3000, len(v))).astype(int)
@@ -132,7 +132,7 @@ def by_blocks(session, i, matcher):
 
 
 def by_corners(session, i, _):
-    """Lucas and Kanade: another matcher, other errors."""
+    """Lucas and Kanade: another matcher with other errors."""
     left, right = session.image(0, i), session.image(1, i)
     found = cv2.goodFeaturesToTrack(left, 1500, 0.002, 5)
     if found is None:
@@ -146,7 +146,7 @@ def by_corners(session, i, _):
 
 
 def disparities(session, name, match):
-    """Beside the plane that is there, where there is one; and how deep walls seem for it."""
+    """Compares with the plane at a pixel if there is one; and the resulting depth of walls."""
     matcher = cv2.StereoSGBM_create(0, 64, 5, 200, 800, 1, 31, 10, 100, 2)
     pixels_off, walls_off = [], []
     for i in range(0, len(session.eyes), max(1, len(session.eyes) // 40)):
@@ -173,7 +173,7 @@ def disparities(session, name, match):
 
 
 def beams(session):
-    """Each beam at its own time on the true way."""
+    """Evaluates each beam at its time on the true path."""
     rows = []
     for frame in ("laser_left", "laser_right"):
         off = []
@@ -192,7 +192,7 @@ def beams(session):
 
 
 def gyroscope(session):
-    """Rates beside those of the true way."""
+    """Compares rates with those of the true path."""
     inside = [r for r in session.rates
               if session.truth.stamps[0] + 0.02 < r[0] < session.truth.stamps[-1] - 0.02]
     true = session.truth.rates(np.array([r[0] for r in inside]))

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""robot.launch on simulated devices at full rate, in real time, with odometry and pose graph in the loop: is anything lost between the devices and the bag of record.launch?
+"""robot.launch on simulated devices at full rate, in real time, with odometry and pose graph in the loop: tests for loss between the devices and the bag of record.launch.
 
   full_rate.py BAG [--times N] [-o FILE.json] [--work DIR]
 
-BAG: of `urban_nav simulate`, with all sensors. --times: so many times after each other, as one session, with a pause of a second, which counts as missing. Needs a sourced workspace (. build/ws/devel/setup.bash).
+BAG: of `urban_nav simulate`, with all sensors. --times: repetitions in one session, separated by a pause of a second, which counts as missing. Needs a sourced workspace (. build/ws/devel/setup.bash).
 """
 import os
 import signal
@@ -26,12 +26,12 @@ except ImportError:
 RATES = {"/laser_left/scan": 74.97, "/laser_right/scan": 74.97, "/imu/data": 100.0, "/wheel_odom": 100.0, "/gps/fix": 1.0, "/stereo/left/image_raw": 0.0,
          "/stereo/right/image_raw": 0.0, "/ladybug/raw": 0.0, "/vo/statistics": 0.0, "/vo/relative_pose": 0.0}
 LOSSES = {"gaps", "messages dropped", "bad checksums", "stalls", "timeouts"}  # counted by the drivers
-PATIENCE = 20  # s for the session to begin, and for its end
+PATIENCE = 20  # s until the start of the session, and after its end
 TICKS = os.sysconf("SC_CLK_TCK")
 
 
 def repeated(session, times, target):
-    """A bag of the session so many times after each other, a period of its slowest topic apart."""
+    """Writes a bag with repetitions of the session, separated by a period of its slowest topic."""
     with rosbag.Bag(str(session)) as bag, rosbag.Bag(str(target), "w") as out:
         begin, end = bag.get_start_time(), bag.get_end_time()
         for k in range(times):
@@ -48,7 +48,7 @@ def repeated(session, times, target):
 
 
 def processor_seconds():
-    """{name: processor time, s} of the programs on this master."""
+    """Returns {name: processor time, s} of the programs on this master."""
     mine = f"ROS_MASTER_URI={os.environ['ROS_MASTER_URI']}".encode()
     found = Counter()
     for folder in Path("/proc").glob("[0-9]*"):
@@ -66,7 +66,7 @@ def processor_seconds():
 
 
 def run(session, folder, duration):
-    """Drives and records; the bags, and the share of a core of each program meanwhile."""
+    """Drives and records; returns the bags and the processor load of each program."""
     live_graph.begin_master()
     topics = " ".join([*RATES, "/stereo/left/camera_info", "/stereo/right/camera_info", "/tf_static", "/diagnostics"])
     recorder = live_graph.quietly("roslaunch", "urban_nav_launch", "record.launch", f"output:={folder}/recorded", f"topics:={topics}")
@@ -84,7 +84,7 @@ def run(session, folder, duration):
 
 
 def stamps_and_losses(bags):
-    """{topic: sorted stamps, s}, how odometry's frames ended, and the last counters of the drivers."""
+    """Returns {topic: sorted stamps, s}, the status of the frames of odometry, and the last counters of the drivers."""
     stamps, frames, losses = {topic: [] for topic in RATES}, Counter(), {}
     for path in bags:
         with rosbag.Bag(str(path)) as bag:
@@ -102,7 +102,7 @@ def stamps_and_losses(bags):
 
 
 def missing(stamps, rate):
-    """How many messages are missing between the first and the last."""
+    """Returns the number of missing messages between the first and the last."""
     steps = np.diff(stamps)
     period = 1.0 / rate if rate else np.median(steps)
     return int(np.sum(np.maximum(np.round(steps / period) - 1, 0)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Images of a real drive in other depths of grey, by five commands: how far are the results from those in 8 bits?
+"""Compares the results of five commands for images of a real drive at other grey depths with those at 8 bits.
 
   grey_depths.py FOLDER [-o FILE.json] [--work DIR]
 
@@ -30,7 +30,7 @@ DEPTHS = {  # from 8 bits
 
 
 def deepened(source, folder, depth):
-    """The drive in another depth."""
+    """Writes the drive at another depth."""
     shutil.rmtree(folder, ignore_errors=True)
     for camera in ("image_0", "image_1"):
         (folder / camera).mkdir(parents=True)
@@ -50,14 +50,14 @@ def path_length(source, out):
 
 
 def rectification(folder, out):
-    """Findings of `doctor`, and the complete pairs that it counts."""
+    """Returns findings of `doctor` and its number of complete pairs."""
     urban_nav("doctor", folder, "--json", out)
     read = json.loads(out.read_text())
     return len(read["findings"]), sum(each["complete"] for each in read["sessions"])
 
 
 def results(folder, work):
-    """What the five commands make of a drive: (name, number or array)."""
+    """Returns the results of the five commands for a drive: (name, number or array)."""
     first = sorted((folder / "image_0").glob("*.png"))[0].name
     urban_nav("disparity", folder / "image_0" / first, folder / "image_1" / first, "--calibration", folder / "calib.txt", "-o", work / "disparity.pfm")
     disparity = cv2.imread(str(work / "disparity.pfm"), cv2.IMREAD_UNCHANGED)
@@ -69,7 +69,7 @@ def results(folder, work):
 
 
 def deviation(result, sound):
-    """Relative difference, largest of the parts of a result."""
+    """Returns the relative difference, the largest over the parts of a result."""
     if isinstance(result, np.ndarray):
         both = np.isfinite(result) & np.isfinite(sound)
         return max(abs(np.isfinite(result).mean() / np.isfinite(sound).mean() - 1), float(np.median(np.abs(result - sound)[both]) / np.mean(sound[both])))

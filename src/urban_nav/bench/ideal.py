@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Without noise, does a simulated session agree with its truth as far as numbers reach? And with clocks of their own, can devices be set right?
-Asked with numpy and OpenCV alone; the sessions are simulated into FOLDER unless they are there.
+"""Tests that a simulated session without noise agrees with its truth to numerical precision, and that clocks of devices can be corrected.
+Uses only numpy and OpenCV; the sessions are simulated into FOLDER unless they exist.
 
     python3 ideal.py FOLDER [-o ideal.json]
 """
@@ -15,13 +15,13 @@ from support import commit, show, urban_nav
 from truth import Surface, Truth, inverse, moved
 
 GRAVITY = np.array([0.0, 0.0, 9.81])  # m/s^2
-PATCH = 8                             # px to each side of a place that is matched
-PLANE = 0.02                          # px by which disparities of a patch may lie beside a plane
-SOLID = (1, 2, 3, 4, 5)               # classes of ground and walls: what stands still and has no holes
+PATCH = 8                             # px to each side of a matched position
+PLANE = 0.02                          # px, largest deviation of disparities of a patch from a plane
+SOLID = (1, 2, 3, 4, 5)               # classes of ground and walls: static and without holes
 
 
 def simulated(folder, name, *options):
-    """The bag and its truth folder."""
+    """Returns the bag and its truth folder."""
     bag = folder / f"{name}.bag"
     if not bag.exists():
         print(f"simulates {name}", flush=True)
@@ -30,7 +30,7 @@ def simulated(folder, name, *options):
 
 
 def places_of(bag):
-    """T_base_frame by frame."""
+    """Returns T_base_frame by frame."""
     links = [link for _, body in bags.messages(bag, {"tf_static"}) for link in bags.transforms(body)]
     return {child: matrix for parent, child, matrix in links if parent == "base_link"}
 
@@ -43,7 +43,7 @@ def sizes(off, unit=1.0, form=".3f"):
 # The gyroscope and accelerometer, integrated
 
 def beginning(truth, place, when):
-    """Pose and velocity of a device at a time, by polynomials through the true poses next to it."""
+    """Returns pose and velocity of a device at a time, by polynomials through adjacent true poses."""
     near = np.argsort(np.abs(truth.stamps - when))[:10]
     times = truth.stamps[near] - when
     positions = (truth.at(truth.stamps[near]) @ place)[:, :3, 3]
@@ -52,7 +52,7 @@ def beginning(truth, place, when):
 
 
 def integrated(pose, speed, rates, forces, step):
-    """Fourth order (Runge and Kutta), over two periods at a time: beginning, middle, end."""
+    """Fourth-order Runge-Kutta integration over two periods: start, middle, end."""
     def change(state, rate, force):
         turn, velocity = state[0], state[1]
         spin = np.array([[0, -rate[2], rate[1]], [rate[2], 0, -rate[0]], [-rate[1], rate[0], 0]])
@@ -109,7 +109,7 @@ def moved_each(poses, points):
 
 
 def planar(values, u, v, half, limit):
-    """Where (u, v) lie, by the plane through the values of the square around each; and where those are a plane to `limit` of the value."""
+    """Returns values at (u, v) by a plane fitted to the square around each, and whether the fit is within `limit` of the value."""
     across, down = np.meshgrid(range(-half, half + 1), range(-half, half + 1))
     design = np.column_stack([np.ones(across.size), across.ravel(), down.ravel()])
     centre_u, centre_v = np.rint(u).astype(int), np.rint(v).astype(int)
@@ -164,7 +164,7 @@ def points(bag, truth_folder, truth, places, camera):
 # Disparities of the texture
 
 def pairs(bag):
-    """Left and right images by stamp, rectified by OpenCV where camera_info has a distortion."""
+    """Returns left and right images by stamp, rectified by OpenCV if camera_info has a distortion."""
     found, maps = {"left": {}, "right": {}}, {}
     topics = {f"stereo/{side}/{what}": side for side in found for what in ("image_raw", "camera_info")}
     for topic, body in bags.messages(bag, set(topics)):
@@ -218,7 +218,7 @@ def by_blocks(left, right):
 
 
 def warped(stamp, left, bf, truth_folder):
-    """The left picture as the right camera would have it, by the true depths: what a matcher errs by on this pair is its own."""
+    """Renders the left image in the right camera by the true depths: errors on this pair are those of the matcher."""
     depth = view(truth_folder, stamp, "right")[0]
     u, v = np.meshgrid(np.arange(left.shape[1], dtype=np.float32), np.arange(left.shape[0], dtype=np.float32))
     return cv2.remap(left, (u + bf / depth).astype(np.float32), v, cv2.INTER_LANCZOS4)
@@ -246,7 +246,7 @@ def beside_truth(matched, truth_folder, bf):
 
 
 def disparities(name, bag, truth_folder, bf):
-    """`truth_folder`: of a session with rectified views."""
+    """`truth_folder`: that of a session with rectified views."""
     rows = []
     for how, match in (("Lucas-Kanade", by_corners), ("correlation", by_correlation)):
         matched = ((stamp, *match(left, right)) for stamp, left, right in list(pairs(bag))[::4])
@@ -304,7 +304,7 @@ def clocks(bag, truth_folder, places):
         return ((truth.at(times + 0.01) @ place)[:, :3, 3] - (truth.at(times - 0.01) @ place)[:, :3, 3]) / 0.02
     rows = []
     devices = (("imu", "imu/data", lambda body: bags.rate(body)[::2], of_gyroscope, True), ("wheels", "wheel_odom", bags.speeds, of_wheels, True),
-               ("gps", "gps/vel", bags.velocity, of_receiver, False))  # once a second is too seldom for a skew
+               ("gps", "gps/vel", bags.velocity, of_receiver, False))  # once per second is too rare for a skew
     for name, topic, read, signal, skewed in devices:
         found = [read(body) for _, body in bags.messages(bag, {topic})]
         stamps, values = np.array([f[0] for f in found]), np.array([f[1] for f in found])

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The nodelet pose_graph in a process group of its own, and a recording to feed it with: three laps of a circle with a closure every second.
+"""Runs the nodelet pose_graph in its own process group with a synthetic recording: three laps of a circle with a closure every second.
 
-Needs a sourced workspace (. build/ws/devel/setup.bash). A master of its own is started, which meets no running one.
+Needs a sourced workspace (. build/ws/devel/setup.bash). Starts its own master, independent of running ones.
 """
 import atexit
 import math
@@ -23,14 +23,14 @@ try:
 except ImportError:
     rospy = None
 
-RATE, LAP, STEPS = 20, 400, 1200  # Hz, steps a lap, steps
+RATE, LAP, STEPS = 20, 400, 1200  # Hz, steps per lap, steps
 CLOSURES = len(range(LAP, STEPS + 1, RATE))
 START = 1225719873  # s
-SPEED = 20  # times as fast as it was recorded
+SPEED = 20  # factor of real time
 
 
 def stop(process):
-    """Kills its whole group."""
+    """Kills the process group."""
     try:
         os.killpg(process.pid, signal.SIGKILL)
     except ProcessLookupError:
@@ -61,7 +61,7 @@ def stamp(i):
 
 
 def step(i):
-    """0.1 m round the circle, of which odometry sees each turn a little too small."""
+    """Step of 0.1 m along the circle, whose rotation odometry underestimates slightly."""
     message = RelativePose()
     message.header.stamp = message.to_stamp = stamp(i + 1)
     message.from_stamp = stamp(i)
@@ -75,7 +75,7 @@ def step(i):
 
 
 def closure(i):
-    """The robot is where it was a lap ago."""
+    """Closure with the pose one lap earlier."""
     message = MetricClosure()
     message.header.stamp = message.b.stamp = stamp(i)
     message.a.stamp = stamp(i - LAP)
@@ -87,13 +87,13 @@ def closure(i):
 
 
 class Feeder:
-    """Publishes the recording, and hears what the graph says."""
+    """Publishes the recording and receives the output of the graph."""
 
     def __init__(self):
         self.steps = rospy.Publisher("vo/relative_pose", RelativePose, queue_size=10 * STEPS)
         self.closures = rospy.Publisher("loops/metric", MetricClosure, queue_size=10 * STEPS)
         self.revision, self.status = 0, None
-        self.fed = []  # when each step was
+        self.fed = []  # time of each step
         rospy.Subscriber("graph/state", GraphState, self.hear)
         rospy.Subscriber("pose_graph/status", StageStatus, lambda status: setattr(self, "status", status))
 
@@ -104,7 +104,7 @@ class Feeder:
         return self.steps.get_num_connections() > 0 and self.closures.get_num_connections() > 0
 
     def feed(self, until, end=STEPS):
-        """The recording from its beginning, as far as it gets before `until` (time.monotonic()). True: to its end."""
+        """Publishes the recording from its start until `until` (time.monotonic()). Returns True if it reached the end."""
         self.fed = []
         while not self.connected():
             if time.monotonic() > until:
@@ -122,12 +122,12 @@ class Feeder:
         return True
 
     def gone(self):
-        """Waits until the master and the publishers know that the nodelet has been killed, and no other one is taken for it."""
+        """Waits until the master and the publishers have noticed that the nodelet was killed."""
         wait_until(lambda: self.steps.get_num_connections() == 0 and self.closures.get_num_connections() == 0)
         self.status = None
 
     def optimized(self):
-        """Relaxes from the measurements alone; waits for it."""
+        """Relaxes from the measurements and waits."""
         before = self.revision
         rospy.ServiceProxy("pose_graph/optimize", Trigger)()
         return wait_until(lambda: self.revision > before)

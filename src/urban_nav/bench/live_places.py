@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The nodelet fabmap_node in a process group of its own, fed with the panoramas of a bag and a drive at constant speed.
+"""Runs the nodelet fabmap_node in its own process group with the panoramas of a bag and a drive at constant speed.
 
 Needs a sourced workspace (. build/ws/devel/setup.bash) and a master (live_graph.begin_master).
 """
@@ -19,11 +19,11 @@ except ImportError:
 
 CAMERAS = 5
 SPACING = 0.5  # m between panoramas
-SPEED = 5  # times as fast as it was recorded
+SPEED = 5  # factor of real time
 
 
 def panoramas_of(bag):
-    """Messages of all cameras by stamp."""
+    """Returns the messages of all cameras by stamp."""
     panoramas = {}
     topics = [f"/ladybug/camera{camera}/image_raw/compressed" for camera in range(CAMERAS)]
     with rosbag.Bag(str(bag)) as file:
@@ -33,7 +33,7 @@ def panoramas_of(bag):
 
 
 class PlaceFeeder:
-    """Publishes panoramas and odometry, and counts the beliefs."""
+    """Publishes panoramas and odometry, and counts beliefs."""
 
     def __init__(self, bag):
         self.panoramas = panoramas_of(bag)
@@ -47,7 +47,7 @@ class PlaceFeeder:
         self.beliefs += 1
 
     def seconds(self):
-        """Time that a whole feed takes."""
+        """Returns the duration of a complete run."""
         return (self.stamp(-1) - self.stamp(0)).to_sec() / SPEED
 
     def stamp(self, i):
@@ -57,7 +57,7 @@ class PlaceFeeder:
         return [each.get_num_connections() for each in (*self.images, self.odometry)]
 
     def feed(self, until):
-        """All of it from the beginning, as far as it gets before `until` (time.monotonic()). True: to its end."""
+        """Publishes everything from the start until `until` (time.monotonic()). Returns True if it reached the end."""
         self.fed, self.beliefs = [], 0
         while min(self.connections()) == 0:
             if time.monotonic() > until:
@@ -78,11 +78,11 @@ class PlaceFeeder:
         return True
 
     def recognised(self):
-        """Waits for the beliefs of all that was fed."""
+        """Waits for the beliefs of all published panoramas."""
         return wait_until(lambda: self.beliefs >= len(self.panoramas))
 
     def gone(self):
-        """Waits until the publishers know that the nodelet has been killed."""
+        """Waits until the publishers have noticed that the nodelet was killed."""
         wait_until(lambda: max(self.connections()) == 0)
         self.status = None
 

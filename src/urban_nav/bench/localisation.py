@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random starts on another day, in a map that stays as it is: `urban_nav map --localise`, as a user would.
+"""Localisation from random starts on another day in a fixed map by `urban_nav map --localise`.
 
-The first day of a simulated world is mapped; from the second one pieces are cut at random, each its own recording, and looked for in the map of the first.
-Counted: how many are KNOWN and right (within 1 m) inside 10 s of driving, whether one is ever wrong by more than 1 m while it says KNOWN, and how far off it is. Starts that drive
-where the first day never was (further than 3 m from its way within the 10 s) are looked for too, and counted apart: nothing of them need be in the map. The map is laid upon the truth by one rigid motion of the whole first
-day; the truth reaches nothing else. A stranger drives in another world: KNOWN is wrong wherever it says it is.
+The first day of a simulated world is mapped; random segments of the second one, each its own recording, are localised in the map of the first.
+Reported: the number that are KNOWN and correct (within 1 m) within 10 s of driving, errors above 1 m while KNOWN, and the accuracy. Starts outside the area of the
+first day (more than 3 m from its path within the 10 s) are counted separately, since the map need not contain them. The map is aligned to the truth by one rigid
+transform of the whole first day; the truth is used for nothing else. A stranger drives in another world, where every KNOWN is wrong.
 """
 import argparse
 import csv
@@ -18,7 +18,7 @@ from support import commit, driven, show, urban_nav
 
 COLUMNS = ("world, seed", "visitor", "starts in the map", "known and right within 10 s", "median time to KNOWN, s", "starts that leave it", "KNOWN", "of all, KNOWN and wrong", "KNOWN frames", "error, median, m", "95 %", "largest",
            "NEES of position (3 is right)", "sightings: views", "clouds")
-SECONDS = 15.0  # of a piece: 10 s of driving and the window of odometry
+SECONDS = 15.0  # of a segment: 10 s of driving and the window of odometry
 RIGHT_S = 10.0
 RIGHT_M = 1.0
 IN_MAP_M = 3.0
@@ -36,7 +36,7 @@ def places_at(track, stamps):
 
 
 def onto(points, places):
-    """The rigid motion that lays `points` upon `places` best (Umeyama 1991)."""
+    """Returns the rigid transform of the best alignment of `points` to `places` (Umeyama 1991)."""
     a, b = points.mean(axis=0), places.mean(axis=0)
     u, _, vt = np.linalg.svd((places - b).T @ (points - a))
     turn = u @ np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ vt))]) @ vt
@@ -54,7 +54,7 @@ def cut(bag, begin, seconds, path):
 
 
 def start(bag, begin, map_folder, motion, truth, folder):
-    """Of one piece: time to KNOWN (s, None: never), errors (m) and squared normalised errors of KNOWN frames, what the summary says."""
+    """Returns for one segment the time to KNOWN (s, None: never), errors (m) and squared normalised errors of KNOWN frames, and the summary."""
     piece, out = folder / "piece.bag", folder / "piece"
     cut(bag, begin, SECONDS, piece)
     urban_nav("map", piece, "--localise", map_folder / "session.db", "--overwrite", "--out", out)
@@ -77,7 +77,7 @@ def start(bag, begin, map_folder, motion, truth, folder):
 
 
 def stays_near(truth, begin, places):
-    """Does the drive stay where the map was driven, for the seconds that count?"""
+    """Returns whether the drive remains in the mapped area for the evaluated time."""
     stamps = truth[0][0] + (begin + np.arange(0.0, RIGHT_S, 0.5)) * 1e9
     return all(np.linalg.norm(places - place, axis=1).min() <= IN_MAP_M for place in places_at(truth, stamps))
 
@@ -120,11 +120,11 @@ def row_of(case, arguments):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="for what is simulated and mapped; sessions and maps that are there already are taken")
+    parser.add_argument("folder", type=Path, help="folder of simulated sessions and maps; existing ones are used")
     parser.add_argument("--case", action="append", help="WORLD:SEED:SECONDS[/ROUTE]:SECONDS[/ROUTE], or WORLD:SEED:SECONDS@WORLD:SEED:SECONDS with a stranger, repeatable (default quad:7:300:300)")
-    parser.add_argument("--starts", type=int, default=50, help="that stay in the map (default 50)")
-    parser.add_argument("--seed", type=int, default=1, help="of the starts")
-    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    parser.add_argument("--starts", type=int, default=50, help="number of starts within the map (default 50)")
+    parser.add_argument("--seed", type=int, default=1, help="seed of the starts")
+    parser.add_argument("-o", "--output", type=Path, help="output table for a README")
     arguments = parser.parse_args()
     measured = commit()
     arguments.folder.mkdir(parents=True, exist_ok=True)

@@ -1,14 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What `urban_nav map --calibrate` finds of delays and mounting errors that were put into simulated sessions: along odometry's own trajectory, with
-nothing known but the stated calibration.
+"""Delays and mounting errors estimated by `urban_nav map --calibrate` in simulated sessions with known errors: along odometry's own trajectory, with
+only the stated calibration known.
 
 lasers        the left one late by 30 ms, the right one turned by 1, -0.5 and 0.3 deg about its axes: route `return` of `quad`
-nothing       the same session without them: nothing may be adopted
+nothing       the same session without errors: no correction may be adopted
 panoramas     late by 20 ms, the head turned by -1, 0.5 and 1.5 deg
-straight      a street straight on: what is not observable
+straight      a straight street: unobservable terms
 
-Truth is what makes the stated value right. What is simulated and mapped stays in the folder.
+Truth is the correction of the stated value. Sessions and maps are kept in the folder.
 """
 import argparse
 import json
@@ -23,14 +23,14 @@ HEAD_WRONG = ("--lag", "panorama:0.02", "--misplace", "ladybug:-1,0.5,1.5")
 
 
 def turns_that_mend(device, roll, pitch, yaw):
-    """The truth of a device that was turned by these angles (deg) in /tf_static: the rotation vector of the inverse."""
+    """Returns the truth of a device rotated by these angles (deg) in /tf_static: the rotation vector of the inverse."""
     (sr, cr), (sp, cp), (sy, cy) = [(np.sin(a), np.cos(a)) for a in np.radians((roll, pitch, yaw)) / 2]
     x, y, z, w = sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy
     vector = -np.degrees(2 * np.arctan2(np.linalg.norm((x, y, z)), w)) * np.array((x, y, z)) / np.linalg.norm((x, y, z))
     return dict(zip(((device, f"turn_{axis}_deg") for axis in "xyz"), vector))
 
 
-# name: world, seed, route, seconds, sensors, what is put in, {(device, term): truth}
+# name: world, seed, route, seconds, sensors, simulated errors, {(device, term): truth}
 CASES = {
     "lasers": ("quad", 40, "return", 70, SENSORS, LASERS_WRONG,
                {("laser_left", "delay_ms"): 30, **turns_that_mend("laser_right", 1, -.5, .3)}),
@@ -65,9 +65,9 @@ def rows(folder, name):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="for what is simulated and mapped; what is simulated already is taken")
+    parser.add_argument("folder", type=Path, help="folder of simulated sessions and maps; existing sessions are used")
     parser.add_argument("--case", action="append", choices=CASES, help="repeatable (default: all)")
-    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    parser.add_argument("-o", "--output", type=Path, help="output table for a README")
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     before = commit()

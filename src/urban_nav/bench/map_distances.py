@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Distances of a map's points to the true surfaces in simulated sessions: along the true trajectory, along that of odometry alone, and along the relaxed one.
+"""Distances of map points to the true surfaces in simulated sessions, for the true trajectory, odometry, and the relaxed one.
 
 A case is WORLD:SEED:DAY:SECONDS. Distances are those of laser_mapper/bench/distance_to_truth.py; along the truth, a copy of the store is rendered by
 laser_mapper/bench/render_store.cpp. What is simulated and mapped stays in the folder.
@@ -30,7 +30,7 @@ def figures(map_ply, truth, trajectory=None):
 
 
 def mapped(bag, out, stages):
-    """What the stages make of a bag: the trajectory's error, and the row's figures."""
+    """Runs the stages on a bag; returns the error of the trajectory and the figures of the row."""
     urban_nav("map", bag, "--out", out, "--overwrite", "--stages", stages, "--set", "laser_mapper.stereo=false")
     found = json.loads((out / "summary.json").read_text())
     lasers = found["laser_mapper"]
@@ -56,9 +56,9 @@ def rows(folder, case):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="for what is simulated and mapped; what is simulated already is taken")
+    parser.add_argument("folder", type=Path, help="folder of simulated sessions and maps; existing sessions are used")
     parser.add_argument("cases", nargs="+", metavar="WORLD:SEED:DAY:SECONDS")
-    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    parser.add_argument("-o", "--output", type=Path, help="output table for a README")
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     before = commit()

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What planes that several passes measured make of a map: a session that comes back along its own path, mapped with and without constraints from
+"""Effect on a map of planes measured by several passes: a session that returns along its path, mapped with and without constraints from
 them, by odometry alone and with all stages.
 
 Distances are those of laser_mapper/bench/distance_to_truth.py. What is simulated and mapped stays in the folder.
@@ -22,7 +22,7 @@ STAGES = {"odometry": ("--stages", "vo,graph,lasers"), "all": ()}
 
 
 def cell(value, scale, digits):
-    """A figure, or a dash where the run has none: no wall is seen twice."""
+    """Returns a figure, or a dash if the run has none: no wall is observed twice."""
     return "-" if value is None else f"{scale * value:.{digits}f}"
 
 
@@ -40,12 +40,12 @@ def row(bag, name, planes):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="for what is simulated and mapped; what is simulated already is taken")
+    parser.add_argument("folder", type=Path, help="folder of simulated sessions and maps; existing sessions are used")
     parser.add_argument("--world", default="quad")
     parser.add_argument("--route", default="return")
     parser.add_argument("--seed", type=int, default=40)
     parser.add_argument("--duration", type=int, default=70, help="s (default 70)")
-    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    parser.add_argument("-o", "--output", type=Path, help="output table for a README")
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     before = commit()

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long it takes to render a large map again after a relaxation: laser scans of simulated bags (`simulate --sensors
-// lasers`), as sessions side by side in one map along their true trajectories, with the shipped parameters.
+// Time to render a large map again after a relaxation: laser scans of simulated bags (`simulate --sensors lasers`), as
+// adjacent sessions in one map along their true trajectories, with the shipped parameters.
 //
 //   urban_nav-bench-map_size [-o FILE.json] [--threads N] BAG...
 //
-// A bag may be given several times: each time it is another session, in another place.
+// A bag may be given several times, each time as another session at another position.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -32,11 +32,11 @@ using urban_nav_core::testing::cell;
 using urban_nav_store::Store;
 
 constexpr double kApart = 400.0;              // m between the origins of two sessions
-constexpr double kShift = 0.3, kTurn = 0.01;  // m, rad: amplitudes of what a relaxation moves
+constexpr double kShift = 0.3, kTurn = 0.01;  // m, rad: amplitudes of the change by a relaxation
 constexpr double kWave = 200.0;               // s
-constexpr double kClosureShare = 0.1;         // of one session, which one more closure moves
+constexpr double kClosureShare = 0.1;         // share of one session, moved by an additional closure
 
-/// The trajectory moved by a slow wave; only its last `share`.
+/// Returns the trajectory with its last `share` displaced by a slow wave.
 Trajectory relaxed(const Trajectory& before, double share) {
   Trajectory after;
   const auto first = static_cast<std::size_t>((1.0 - share) * static_cast<double>(before.size()));
@@ -58,7 +58,7 @@ struct Drive {
   Trajectory trajectory;
 };
 
-/// Puts the scans of a bag into the store, beside the drives before it. Returns its length, m.
+/// Writes the scans of a bag to the store, next to the previous drives. Returns its length, m.
 double addDrive(const std::string& bag, Store& store, std::vector<Drive>& drives) {
   char id[21];
   std::snprintf(id, sizeof(id), "%020zu", drives.size() + 1);
@@ -81,7 +81,7 @@ struct Made {
   std::size_t points = 0;
 };
 
-/// Renders what has moved, and writes the map.
+/// Renders the moved parts and writes the map.
 Made render(const std::vector<Drive>& drives, Store& store, const std::string& path) {
   Made made;
   std::vector<laser_mapper::MappedSession> sessions;

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the default model of places claims between days, within one, and among strangers, in simulated worlds that it was neither trained nor calibrated with.
+"""Claims of the default model of places between days, within one day, and in other worlds, for simulated worlds used neither for training nor for calibration.
 
-two days     a site is driven on two days; the second is looked for in both, and in the first alone (places of the second day are no candidates)
-reversed     as two days, in the first alone; counted is what the second day drives in the direction opposite to the first
-left images  as two days, by the left image of the stereo head alone, two a second
-one day      a drive that returns to where it began is looked for in itself
-strangers    other sites of the same world, one after the other: each is looked for in all before it, and every match is wrong
+two days     a site driven on two days; the second is matched with both, and with only the first (places of the second day are no candidates)
+reversed     as two days, matched with only the first; counted where the second day is driven in the opposite direction
+left images  as two days, by only the left image of the stereo head, two per second
+one day      a drive that returns to its start, matched with itself
+strangers    other sites of the same world: each is matched with all previous ones, and every match is wrong
 real images  425 images of a car, with revisits: of $URBAN_NAV_DATA, if it is set
 
-Panoramas but where it says otherwise. A match within 7.5 m is right, beyond 10 m wrong. What is counted are the matches of the second day, whichever day they match, and those of strangers with other drives.
+Panoramas unless stated otherwise. A match within 7.5 m is right, beyond 10 m wrong. Counted are the matches of the second day with either day, and those of strangers with other drives.
 FOLDER/claims.csv keeps each claim with all evidence, for places_reliability.py.
 """
 import argparse
@@ -32,12 +32,12 @@ COLUMNS = ("world", "drives", "evidence", "compared", "revisits", "right place f
 CLAIM_COLUMNS = ("world", "drives", "probability", "verdict", "stretch")
 TWO_DAYS = ("quad:930001:40", "street:930002:40", "begbroke:930003:30")
 STRANGERS = ("quad:930001:40,930004:20,930007:20", "street:930002:40,930005:20,930008:20", "begbroke:930003:30,930006:20,930009:20")
-ONE_DAY = "begbroke:930003:200"  # round the building in 170 s
+ONE_DAY = "begbroke:930003:200"  # around the building in 170 s
 REVERSED = "quad:930001:40"  # to the archway
 RETURN_SECONDS = 60  # to the archway and back
 LEFT_IMAGES = "quad:930001:25"
 LEFT_TOPIC = "/stereo/left/image_raw"
-EVIDENCE = {"words alone": ("--second-look", "off", "--sequence", "off"), "+ sequence": ("--second-look", "off"), "+ second look": ()}  # the last one is how it is by default
+EVIDENCE = {"words alone": ("--second-look", "off", "--sequence", "off"), "+ sequence": ("--second-look", "off"), "+ second look": ()}  # the last one is the default
 SAME_M, ELSEWHERE_M, REVISIT_M = 7.5, 10.0, 2.0
 SAME_IMAGES, ELSEWHERE_IMAGES = 3, 20  # of the real images, a quarter of a second apart
 STRETCH_M, STRETCH_IMAGES = 10.0, 5
@@ -63,7 +63,7 @@ def drive(folder, world, seed, duration, day=1, route="loops", sensors="ladybug"
 
 
 def left_images(bag):
-    """Two left images a second of a bag, as a bag; what is there already is taken."""
+    """Writes two left images per second of a bag as a bag; an existing one is used."""
     thinned = bag.with_name(f"{bag.stem}_left.bag")
     if not thinned.exists():
         with rosbag.Bag(str(bag)) as source, rosbag.Bag(str(thinned), "w") as target:
@@ -74,7 +74,7 @@ def left_images(bag):
 
 
 class Drive:
-    """The true path of a bag."""
+    """Returns the true path of a bag."""
 
     def __init__(self, bag):
         self.path = bag.with_suffix(".truth") / "trajectory.tum"
@@ -91,7 +91,7 @@ class Drive:
 
 
 def nearest(earlier, query, stamp):
-    """Distance (m) of a moment of `query` to the path of `earlier`, and the angle (deg) between the headings there."""
+    """Returns the distance (m) from `query` at a time to the path of `earlier`, and the angle (deg) between the headings."""
     until = int(np.searchsorted(earlier.stamps, stamp - MASK_NS)) if earlier is query else len(earlier.stamps)
     if until == 0:
         return np.inf, 0.0
@@ -102,7 +102,7 @@ def nearest(earlier, query, stamp):
 
 
 def judged(found, bags, one_site, only_opposite=False):
-    """The claims of matches with drives of one site, or of several."""
+    """Returns the claims of matches with drives of one site or several."""
     drives = [Drive(bag) for bag in bags]
     claims = []
     for match in found:
@@ -130,7 +130,7 @@ def judged_images(found, positions, stamps):
 
 
 def peer_matches(path):
-    """Matches of another system: a CSV of query,match,score, images counted from 0."""
+    """Reads matches of another system: a CSV of query,match,score with 0-based images."""
     with path.open() as file:
         return [Match(0, round(0.25e9 * int(r["match"])), 0, round(0.25e9 * int(r["query"])), float(r["score"])) for r in csv.DictReader(file)]
 
@@ -227,13 +227,13 @@ class Bench:
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="for what is simulated; bags that are there already are taken")
+    parser.add_argument("folder", type=Path, help="folder of simulated sessions; existing bags are used")
     parser.add_argument("--kind", action="append", choices=KINDS, help="repeatable (default: all)")
     parser.add_argument("--model", default="default")
     parser.add_argument("--other-model", action="append", default=[], metavar="NAME=MODEL", help="another model for the real images; repeatable")
     parser.add_argument("--probabilities", action="append", default=[], metavar="NAME=FILE.csv", help="as --peer, with calibrated probabilities as scores, of fabmap_node-bench-opencv_features; repeatable")
     parser.add_argument("--peer", action="append", default=[], metavar="NAME=FILE.csv", help="what another system says of the real images: query,match,score, images counted from 0; repeatable")
-    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    parser.add_argument("-o", "--output", type=Path, help="output table for a README")
     arguments = parser.parse_args()
     measured = commit()
     arguments.folder.mkdir(parents=True, exist_ok=True)

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From recordings alone to one map: `urban_nav map` recognises places and measures the closures, none of which is given.
+"""From recordings to one map: `urban_nav map` recognises places and measures closures without given ones.
 
-Each case is WORLD:SEED:SECONDS[/ROUTE] of the first day[:SECONDS[/ROUTE] of the second one]; a day without SECONDS is left out. Three ways to map it:
+Each case is WORLD:SEED:SECONDS[/ROUTE] of the first day[:SECONDS[/ROUTE] of the second one]; a day without SECONDS is omitted. Ways to map it:
   found     as shipped, with stereo and panoramas: stages vo, places, loops, graph
-  stereo    the same with the stereo images, IMU and wheels alone: the left images show the places
-  given     the closures of the truth are candidates (closures.py), in place of the stage places
+  stereo    the same with only stereo images, IMU and wheels: places from the left images
+  given     the closures of the truth are candidates (closures.py) instead of the stage places
   odometry  without closures: stages vo, graph
 
-A stretch of 10 m of a drive is connected to a session where an accepted closure leads there from it; counted are those from where the truth leads there. A revisited pose is near a
-closure if an accepted one of the same session begins within 2 m of it. False: an accepted closure of places more than 10 m apart, or a transform more than 0.5 m off.
-FOLDER/NAME/stretches.csv says of each stretch what was proposed and accepted.
+A stretch of 10 m of a drive is connected to a session if an accepted closure links them; counted are stretches linked by the truth. A revisited pose is near a
+closure if an accepted one of the same session starts within 2 m of it. False: an accepted closure of places more than 10 m apart, or a transform more than 0.5 m off.
+FOLDER/NAME/stretches.csv lists the proposed and accepted closures of each stretch.
 """
 import argparse
 import csv
@@ -38,7 +38,7 @@ FALSE_M = 0.5
 
 
 def by_stereo(bag, folder):
-    """A copy without panoramas and lasers; what is there already is taken."""
+    """Writes a copy without panoramas and lasers; an existing one is used."""
     copy = folder / f"{bag.stem}_stereo.bag"
     if not copy.exists():
         with rosbag.Bag(str(bag)) as source, rosbag.Bag(str(copy), "w") as target:
@@ -59,7 +59,7 @@ class Drive(closures.Session):
 
 
 class Candidate:
-    """A row of closures.csv beside the truth."""
+    """Compares a row of closures.csv with the truth."""
 
     def __init__(self, row, drives):
         names = [drive.name for drive in drives]
@@ -81,7 +81,7 @@ def candidates(path, drives):
 
 
 def stretch_rows(true, found, drives):
-    """Of each stretch that the truth connects."""
+    """Returns a row for each stretch connected by the truth."""
     looks = Counter((j, drives[j].stretch(b), i) for i, _, j, b in true)
     of_stretch = defaultdict(list)
     for each in found:
@@ -95,7 +95,7 @@ def stretch_rows(true, found, drives):
 
 
 def near_closures(true, found, drives):
-    """Revisited poses, and those of them near an accepted closure between the same sessions."""
+    """Returns the numbers of revisited poses and of those near an accepted closure between the same sessions."""
     near = []
     for i, j in sorted({(i, j) for i, _, j, _ in true}):
         poses = drives[j].at(sorted({b for k, _, l, b in true if (k, l) == (i, j)}))[:, :3, 3]
@@ -112,7 +112,7 @@ def offered(true, drives, path):
 
 
 def mapped(case, way, bags, true, drives, work):
-    """The folder of a map; what is there already is taken."""
+    """Returns the folder of a map; an existing one is used."""
     world, seed, *days = case.split(":")
     out = work / "_".join((world + seed, *(day.replace("/", "_") for day in days), way))
     if not (out / "summary.json").exists():
@@ -123,7 +123,7 @@ def mapped(case, way, bags, true, drives, work):
 
 
 def errors_m(out, graph, joined):
-    """Of odometry, each day from its own first pose, and after relaxation: in one frame if there is one."""
+    """Returns errors of odometry, each day relative to its first pose, and after relaxation: in one frame if there is one."""
     days = graph["per_session"]
     odometry, relaxed = (root_mean_square([day[key] for day in days], [day["frames"] for day in days]) for key in ("ate_m_odometry", "ate_m"))
     if joined:
@@ -159,11 +159,11 @@ def row_of(case, way, arguments):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="for what is simulated; sessions that are there already are taken")
-    parser.add_argument("work", type=Path, help="for maps and copies; those that are there already are taken")
+    parser.add_argument("folder", type=Path, help="folder of simulated sessions; existing sessions are used")
+    parser.add_argument("work", type=Path, help="folder of maps and copies; existing ones are used")
     parser.add_argument("--case", action="append", help="WORLD:SEED:SECONDS[/ROUTE]:SECONDS[/ROUTE], repeatable (default quad:7:300:300)")
     parser.add_argument("--way", action="append", choices=WAYS, help="repeatable (default: found, given)")
-    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    parser.add_argument("-o", "--output", type=Path, help="output table for a README")
     arguments = parser.parse_args()
     measured = commit()
     for folder in (arguments.folder, arguments.work):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether probabilities of places are true: of claims of 80 %, are 80 % right? From the claims.csv of places.py: all worlds, days, strangers and real images in it together, and by kind of images.
+"""Reliability of probabilities of places: the share of correct claims by stated probability. From claims.csv of places.py: all worlds, days, strangers and real images together, and by kind of images.
 
 Neighbouring claims are alike, and are right or wrong together. So a stretch of 10 m (5 single images) gives one claim to each range of probabilities, the first; intervals follow from their
 number (Wilson, 95 %).
@@ -23,13 +23,13 @@ Bin = namedtuple("Bin", "low high claims right stretches stretches_right stated"
 
 
 def wilson(right, number, z=1.959964):
-    """Interval of a share, of which `right` of `number` are known (Wilson 1927)."""
+    """Returns the interval of a share with `right` of `number` (Wilson 1927)."""
     centre, spread = (right + z * z / 2) / (number + z * z), z * math.sqrt(right * (number - right) / number + z * z / 4) / (number + z * z)
     return max(0.0, centre - spread), min(1.0, centre + spread)
 
 
 def fewest(number, probability, level=0.01):
-    """The largest k that a binomial count stays below in at most `level` of all cases."""
+    """Returns the largest k that a binomial count is below with a probability of at most `level`."""
     total = 0.0
     for k in range(number + 1):
         total += math.comb(number, k) * probability**k * (1.0 - probability) ** (number - k)
@@ -93,7 +93,7 @@ def draw(path, bins):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("claims", type=Path)
-    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    parser.add_argument("-o", "--output", type=Path, help="output table for a README")
     parser.add_argument("--picture", type=Path, help="the diagram, PNG; needs python3-matplotlib")
     arguments = parser.parse_args()
     measured = commit()

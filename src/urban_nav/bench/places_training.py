@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How long `urban_nav places train` takes to make words and tree from panoramas, features included; it ends before the calibration.
+"""Duration of training of words and tree by `urban_nav places train` from panoramas, including features, without calibration.
 
 Each SRC is a bag with panoramas, or a folder of images; none should be given twice, since equal panoramas are learnt quickly.
 """
@@ -19,7 +19,7 @@ FEATURES = re.compile(r"(.+): (\d+) images in ")
 
 
 def processor_s(process):
-    """Of all its threads."""
+    """Returns the processor time of all threads."""
     fields = Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
@@ -29,7 +29,7 @@ def main():
     parser.add_argument("src", type=Path, nargs="+")
     parser.add_argument("--words", type=int, default=10000)
     parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    parser.add_argument("-o", "--output", type=Path, help="output table for a README")
     arguments = parser.parse_args()
     measured = commit()
     panoramas, moments = 0, []

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What constraints from planes make of drift: laser scans of a simulated bag (`simulate --sensors lasers`, no images
-// needed) with an odometry made of the truth and a random walk, relaxed with and without them.
+// Effect of plane constraints on drift: laser scans of a simulated bag (`simulate --sensors lasers`, no images needed)
+// with odometry from the truth plus a random walk, relaxed with and without the constraints.
 //
 //   urban_nav-bench-plane_drift [-o FILE.json] [--trials 3] [--icp] BAG...
 //
-// The truth is read from BAG_STEM.truth/trajectory.tum. Closures are drawn: the truth with noise; with --icp, measured
-// by ICP of the scans.
+// The truth is read from BAG_STEM.truth/trajectory.tum. Closures are the truth with noise; with --icp, measured by ICP
+// of the scans.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -40,10 +40,9 @@ using urban_nav_store::Store;
 
 constexpr const char* kBenchSession = "0123456789abcdef0123";
 constexpr StampNs kFrame = 50'000'000;  // between two poses of odometry
-// Of the random walk, per root of a second: after 100 s some 5 cm by themselves and 0.2 deg, which over the 100 m make
-// some 20 cm more.
+// Random walk per root of a second: after 100 s about 5 cm and 0.2 deg, which over 100 m add about 20 cm.
 constexpr double kWalkM = 0.005, kWalkRad = 0.0003;
-constexpr double kRevisitM = 3.0, kRevisitS = 30.0;      // poses that are compared
+constexpr double kRevisitM = 3.0, kRevisitS = 30.0;      // compared poses
 constexpr double kClosureM = 0.02, kClosureRad = 0.005;  // standard deviations of closures
 constexpr StampNs kClosurePeriod = 4'000'000'000;
 
@@ -54,7 +53,7 @@ Trajectory atFrames(const Trajectory& truth) {
   return frames;
 }
 
-/// An odometry that knows how far it may be off.
+/// Odometry with a consistent covariance.
 SessionOdometry makeOdometry(const Trajectory& truth, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, 1.0);
@@ -80,7 +79,7 @@ SessionOdometry makeOdometry(const Trajectory& truth, unsigned seed) {
   return run;
 }
 
-/// Pairs of poses a few seconds apart from each other at one place, by index.
+/// Returns pairs of poses at one place, a few seconds apart from each other, by index.
 std::vector<std::pair<std::size_t, std::size_t>> findRevisits(const Trajectory& truth) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   const auto step = static_cast<std::size_t>(kClosurePeriod / kFrame);

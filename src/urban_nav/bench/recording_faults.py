@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Faults of other people's recordings in sound sessions: does `doctor` name each, and does the line that it prints repair `map`?
+"""Typical faults of recordings applied to fault-free sessions: tests that `doctor` reports each and that its command corrects `map`.
 
   recording_faults.py [-o FILE.json] [--work DIR] [--only WORDS] [CASE...]
 
@@ -37,18 +37,18 @@ except ImportError:
 PROGRAM = TOP / "urban_nav"
 SECONDS = 15
 SENSORS = "stereo,lasers,imu,wheels,gps"
-NEAR = 0.01  # m: as of the sound session
+NEAR = 0.01  # m: equal to the fault-free session
 SAMPLE = 20000  # points of a map
 
 
 def command(*words):
-    """Exit status and text of the command, which may refuse the session."""
+    """Returns exit status and output of the command, which may reject the session."""
     result = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True)
     return result.returncode, result.stdout + result.stderr
 
 
 def dressed(sound, change, folder):
-    """The recordings of a session, with the messages of `change.topics` as `change` yields them."""
+    """Writes the recordings of a session with the messages of `change.topics` replaced by those of `change`."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     bags = {}
@@ -70,7 +70,7 @@ def dressed(sound, change, folder):
 
 
 def sound_session(folder, case):
-    """Every second pair of a simulated session, without its truth."""
+    """Writes every second pair of a simulated session without its truth."""
     world, seed = case.split(":")
     sound = folder / f"{world}{seed}.bag"
     if sound.exists():
@@ -87,7 +87,7 @@ def sound_session(folder, case):
 
 
 def real_session(folder, source):
-    """A drive of KITTI with its GPS/INS as an IMU and a GPS receiver, whose axes are those of base_link to a degree."""
+    """Writes a drive of KITTI with its GPS/INS as an IMU and a GPS receiver, aligned with base_link within a degree."""
     bag = folder / f"{source.name}.bag"
     if bag.exists():
         return bag
@@ -118,7 +118,7 @@ def seconds_of_day(utc):
 
 
 def cloud(path):
-    """Points of a map, at most SAMPLE of them."""
+    """Returns points of a map, at most SAMPLE."""
     kinds = {"float": "<f4", "uchar": "u1", "ushort": "<u2", "double": "<f8"}
     header, body = path.read_bytes().split(b"end_header\n", 1)
     names = [line.split() for line in header.decode().splitlines() if line.startswith("property")]
@@ -128,7 +128,7 @@ def cloud(path):
 
 
 class Run:
-    """What `map` made of a session: its trajectories, stamps from the first one, and its points."""
+    """Result of `map` for a session: trajectories, stamps relative to the first one, and points."""
 
     def __init__(self, bags, out, options):
         shutil.rmtree(out, ignore_errors=True)
@@ -137,7 +137,7 @@ class Run:
         self.some, self.points = cloud(out / "map.ply") if self.status == 0 and (out / "map.ply").exists() else (None, None)
 
     def apart(self, sound):
-        """Largest distance of the poses, and the 95 % quantile of that between the points of both maps, m; infinite where one is absent."""
+        """Returns the largest distance of the poses, and the 95 % quantile of that between the points of both maps, m; infinite if one is absent."""
         track = gap = float("inf")
         if self.poses and [len(p) for p in self.poses] == [len(p) for p in sound.poses]:
             track = max(float(np.linalg.norm(a[:, 1:4] - b[:, 1:4], axis=1).max()) for a, b in zip(self.poses, sound.poses))
@@ -153,7 +153,7 @@ def nearest(queries, points):
 
 
 def examined(bags, folder):
-    """Findings of `doctor`, and the arguments of `map` that it offers."""
+    """Returns the findings of `doctor` and its suggested arguments of `map`."""
     summary = folder / "doctor.json"
     summary.unlink(missing_ok=True)
     command("doctor", *bags, "--json", summary)
@@ -167,7 +167,7 @@ def centimetres(metres):
 
 
 def measure(case, folder, only):
-    """Rows of a session: fault, named, options, distances before and after."""
+    """Returns the rows of a session: fault, reported, options, distances before and after."""
     is_real = Path(case).is_dir()
     sound = real_session(folder, Path(case)) if is_real else sound_session(folder, case)
     name = sound.stem
@@ -207,7 +207,7 @@ def main():
     parser.add_argument("cases", nargs="*", metavar="CASE", default=["quad:5", "street:6"])
     parser.add_argument("-o", "--output", type=Path)
     parser.add_argument("--work", type=Path)
-    parser.add_argument("--only", help="faults whose names have these words (a regular expression)")
+    parser.add_argument("--only", help="faults whose names match this regular expression")
     arguments = parser.parse_args()
     if rosbag is None:
         sys.exit("there is no rosbag here")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A long ride on which something goes wrong all the time: does visual odometry end where it says it does?
+"""A long drive with a fault in every period: tests that the final error of visual odometry is consistent with its covariance.
 
 Every 20 s another fault of the stereo camera, by chance: which, how long, and the seed are printed. The last pose is compared with the truth, and with its
 own covariance: with six degrees of freedom a right one leaves a normalised squared error above 16.8 once in a hundred times. What each fault leaves behind
@@ -18,15 +18,15 @@ from support import commit, show, urban_nav
 from truth import Truth, angle, inverse
 
 EVERY = 20  # s
-AFTER = 1.0  # s after its end until a fault's span ends: by then the pictures are followed again
-PEACE = 15.0  # s after the beginning of a period: the faults of some_fault and what comes after them are over
-LITTLE = (0.04, 0.3)  # m, deg: a fault that leaves no more has cost nothing that an ordinary stretch could not
+AFTER = 1.0  # s after the end of a fault until its span ends: tracking has recovered
+PEACE = 15.0  # s after the start of a period: the faults of some_fault and their effects have ended
+LITTLE = (0.04, 0.3)  # m, deg: smaller errors are not distinguishable from fault-free odometry
 WORST = 16.81  # chi-square, 6 degrees of freedom, 99 %
 COLUMNS = ("world", "faults", "length, m", "status at the end", "frames not OK", "position off at the end, m", "NEES at the end", "mean NEES")
 
 
 def some_fault(chance, start):
-    """The fault that begins within the 20 s from `start`; over before the next."""
+    """Returns the fault of the 20 s from `start`; it ends before the next."""
     kind = chance.choice(("drop", "freeze", "swap", "corrupt", "unplug", "nan"))
     begin, duration = start + chance.uniform(2.0, 10.0), chance.uniform(0.2, 3.0)
     share = f":{chance.uniform(0.1, 0.5):.2f}" if kind in ("drop", "corrupt") else ""
@@ -34,7 +34,7 @@ def some_fault(chance, start):
 
 
 def poses_of(path):
-    """Stamps (s) and poses of a TUM file."""
+    """Returns stamps (s) and poses of a TUM file."""
     rows = np.loadtxt(path)
     poses = np.tile(np.eye(4), (len(rows), 1, 1))
     poses[:, :3, :3], poses[:, :3, 3] = bags.rotation(rows[:, 4:8]), rows[:, 1:4]
@@ -42,13 +42,13 @@ def poses_of(path):
 
 
 def span_of(fault):
-    """Where a fault begins and ends, s from the beginning of the session."""
+    """Returns start and end of a fault, s from the start of the session."""
     begin, duration = (float(word) for word in fault.split(":")[2:4])
     return begin, begin + duration
 
 
 def left_behind(spans, stamps, poses, truth):
-    """By how much (m, deg) the way from the last frame before each span (s from the beginning of the session) to the first frame AFTER its end is off."""
+    """Returns the error (m, deg) of the motion from the last frame before each span (s from the start of the session) to the first frame AFTER its end."""
     found = []
     for begin, end in spans:
         first = max(np.searchsorted(stamps, truth.stamps[0] + begin) - 1, 0)
@@ -60,7 +60,7 @@ def left_behind(spans, stamps, poses, truth):
 
 
 def costs(faults, stamps, poses, truth):
-    """What the faults cost, in words."""
+    """Returns the effect of the faults as text."""
     spans = [span_of(fault) for fault in faults]
     cost = left_behind(spans, stamps, poses, truth)
     peace = left_behind([(begin - begin % EVERY + PEACE, begin - begin % EVERY + PEACE + end - begin) for begin, end in spans], stamps, poses, truth)
@@ -75,12 +75,12 @@ def costs(faults, stamps, poses, truth):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="for what is simulated and mapped")
+    parser.add_argument("folder", type=Path, help="folder of simulated sessions and maps")
     parser.add_argument("--world", default="quad")
     parser.add_argument("--route", default="loops")
-    parser.add_argument("--seed", type=int, default=1, help="of the world and of the faults")
+    parser.add_argument("--seed", type=int, default=1, help="seed of world and faults")
     parser.add_argument("--duration", type=int, default=600, help="s (default 600)")
-    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    parser.add_argument("-o", "--output", type=Path, help="output table for a README")
     arguments = parser.parse_args()
     measured, chance = commit(), random.Random(arguments.seed)
     faults = [some_fault(chance, start) for start in range(EVERY, arguments.duration - EVERY // 2, EVERY)]
@@ -93,7 +93,7 @@ def main():
         urban_nav("simulate", "--world", arguments.world, "--route", arguments.route, "--seed", arguments.seed, "--duration", arguments.duration,
                   "--sensors", "stereo", *(word for fault in faults for word in ("--fault", fault)), "-o", bag)
     urban_nav("map", bag, "--stages", "vo", "--out", out)
-    # The end alone: the last pose and its covariance, beside the whole truth.
+    # Last pose and its covariance compared with the truth.
     urban_nav("evaluate", "--truth", bag.with_suffix(".truth") / "trajectory.tum", "--estimate", out / "trajectory.tum", "--json", out / "errors.json")
     summary, errors = json.loads((out / "summary.json").read_text()), json.loads((out / "errors.json").read_text())
     end = errors["end"]

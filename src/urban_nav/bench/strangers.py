@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sites that are not the same, mapped together: does `urban_nav map`, which proposes closures by appearance, join what does not belong together?
+"""Different sites mapped together: tests for false closures between them by `urban_nav map`, which proposes closures by appearance.
 
 Each case is WORLD:SEED:SECONDS, for each site one, driven with stereo and panoramas in the same light, but stamped a day apart. Every closure between two sites is false.
 """
@@ -19,7 +19,7 @@ DAY_S = 86400
 
 
 def days_later(bag, days):
-    """A copy of a bag, stamped `days` later; what is there already is taken. Drives of one day of the simulator overlap, as no two drives of one robot do."""
+    """Writes a copy of a bag with stamps `days` later; an existing one is used. Simulated drives of one day overlap in time, unlike those of one robot."""
     copy = bag.with_name(f"{bag.stem}_{days}_days_later.bag")
     if days == 0 or copy.exists():
         return copy if days else bag
@@ -32,7 +32,7 @@ def days_later(bag, days):
 
 
 def between_sites(path):
-    """Verdicts of the closures whose ends are in two sessions."""
+    """Returns the verdicts of closures between two sessions."""
     with path.open() as file:
         return [row["verdict"] for row in csv.DictReader(file) if row["session_a"] != row["session_b"]]
 
@@ -50,9 +50,9 @@ def row_of(folder, case):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="for what is simulated and mapped; bags that are there already are taken")
+    parser.add_argument("folder", type=Path, help="folder of simulated sessions and maps; existing bags are used")
     parser.add_argument("--case", action="append", help="repeatable (default: two sites of each world)")
-    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    parser.add_argument("-o", "--output", type=Path, help="output table for a README")
     arguments = parser.parse_args()
     measured = commit()
     arguments.folder.mkdir(parents=True, exist_ok=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the programs of this folder share: the command, and a table as the READMEs take it (scripts/tables.py)."""
+"""Shared functions of this folder: the command, and tables for READMEs (scripts/tables.py)."""
 import argparse
 import json
 import re
@@ -12,18 +12,18 @@ from pathlib import Path
 TOP = Path(__file__).resolve().parents[3]
 SENSORS = "stereo,lasers,imu,wheels"
 WORLDS = ("quad", "begbroke", "street")
-IS_CASE = re.compile(r"\w+:\d")  # of a world, which may name a route behind a stroke
+IS_CASE = re.compile(r"\w+:\d")  # of a world, optionally followed by a slash and a route
 
 
 def urban_nav(*arguments):
-    """Runs the command; what it complains of ends the program."""
+    """Runs the command; exits with its error."""
     result = subprocess.run([TOP / "urban_nav", *map(str, arguments)], capture_output=True, text=True)
     if result.returncode != 0:
         sys.exit(f"urban_nav {' '.join(map(str, arguments))}:\n{result.stderr[-2000:]}")
 
 
 def simulated_bag(bag, world, seed, duration, *options):
-    """A session as a bag; what is there already is taken."""
+    """Simulates a session as a bag; an existing one is used."""
     if not bag.exists():
         print(f"drives {bag.stem} for {duration} s", file=sys.stderr)
         urban_nav("simulate", "--world", world, "--seed", seed, "--duration", duration, *options, "-o", bag)
@@ -31,7 +31,7 @@ def simulated_bag(bag, world, seed, duration, *options):
 
 
 def driven(folder, case, sensors=SENSORS):
-    """The bags of all days but those without a duration; what is there already is taken."""
+    """Returns the bags of all days with a duration; existing ones are used."""
     world, seed, *days = case.split(":")
     bags = []
     for day, (duration, _, route) in enumerate((each.partition("/") for each in days), 1):
@@ -44,23 +44,23 @@ def driven(folder, case, sensors=SENSORS):
 
 
 def simulated(folder, world, seed, duration, *options):
-    """The stereo stream of a session as a KITTI folder; what is there already is taken."""
+    """Returns the stereo stream of a session as a KITTI folder; an existing one is used."""
     if not (folder / "poses.txt").exists():
         print(f"drives {folder.name} for {duration} s", file=sys.stderr)
         urban_nav("simulate", "--world", world, "--seed", seed, "--duration", duration, "--sensors", "stereo", *options, "--folder", folder,
                   "-o", f"{folder}.bag")
-        Path(f"{folder}.bag").unlink()  # the folder has all of it
+        Path(f"{folder}.bag").unlink()  # the folder contains all of it
     return folder
 
 
 def mapped(folder, out, *settings):
-    """What visual odometry makes of a folder: its summary, compared with the truth that lies there."""
+    """Returns the summary of visual odometry on a folder, compared with the truth in the folder."""
     urban_nav("map", folder, "--stages", "vo", "--out", out, *(word for each in settings for word in ("--set", each)))
     return json.loads((out / "summary.json").read_text())
 
 
 def session_parser(text):
-    """Of a program that runs the bag of one session: the bag, the table's file, and the folder for what is made on the way (`work_folder`)."""
+    """Parses the arguments of a program for the bag of one session: bag, output table, and folder of intermediate files (`work_folder`)."""
     parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("bag", type=Path)
     parser.add_argument("-o", "--output", type=Path)
@@ -75,7 +75,7 @@ def work_folder(arguments):
 
 
 def wait_until(so, seconds=30):
-    """Whether it is so, at the latest after the time."""
+    """Returns whether the condition becomes true within the time."""
     end = time.monotonic() + seconds
     while not so() and time.monotonic() < end:
         time.sleep(0.05)
@@ -89,14 +89,14 @@ def machine():
 
 
 def commit():
-    """Of what is measured; with a + if files are changed. Ask before anything is written."""
+    """Returns the commit of the measured code, with a + if files are changed. Must be called before files are written."""
     def git(*words):
         return subprocess.run(["git", "-C", TOP, *words], capture_output=True, text=True).stdout.strip()
     return git("rev-parse", "--short", "HEAD") + ("+" if git("status", "--porcelain") else "")
 
 
 def show(columns, rows, notes, measured, output):
-    """Prints a table; `output`: file that keeps it, or None. `measured`: commit(). Paths of this machine are left out."""
+    """Prints a table; `output`: file for it, or None. `measured`: commit(). Local paths are omitted."""
     lines = [columns, *rows]
     widths = [max(len(line[i]) for line in lines) for i in range(len(columns))]
     for line in lines:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One table in the forms that programs write, through the commands that read tables: are the results equal?
+"""Reads one table in the formats of common programs by the commands that read tables, and compares the results.
 
   table_forms.py [-o FILE.json] [--work DIR]
 """
@@ -25,12 +25,12 @@ def plain(cells):
 
 
 def with_commas(cells):
-    """Decimal commas in numbers; names of files keep their points."""
+    """Writes decimal commas in numbers; names of files keep their points."""
     return [cell.replace(".", ",") if cell.replace(".", "").lstrip("-").isdigit() else cell for cell in cells]
 
 
 def written(header, rows, separator=",", cells=plain, head=plain, before="", mark="", end="\n", each="", last=True, encoding="utf-8", between="", lead=""):
-    """A table as bytes. `before`: lines before the header; `mark`: before the header; `each`: at the end of a row; `between`: between two rows."""
+    """Returns a table as bytes. `before`: lines before the header; `mark`: before the header; `each`: at the end of a row; `between`: between two rows."""
     lines = [*([mark + separator.join(head(header)) + each] if header else []), *(lead + separator.join(cells(row)) + each for row in rows)]
     text = before + (end + between).join(lines) + (end if last else "")
     return text.encode(encoding)
@@ -87,7 +87,7 @@ T_BS:
 
 
 class Tables:
-    """A table for each command, and what the command makes of a form of it: bytes, or None where it refuses."""
+    """Returns a table for each command, and the result of the command for each format: bytes, or None if rejected."""
 
     def __init__(self, work):
         self.work = work

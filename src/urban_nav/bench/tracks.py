@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Features, tracks and residuals of visual odometry in the simulated worlds, beside real sequences and the paper's Tables 2 and 3.
+"""Features, tracks and residuals of visual odometry in the simulated worlds, compared with real sequences and Tables 2 and 3 of the paper.
 
     python3 tracks.py WORLDS [REAL...] [-o tracks.json]
 
@@ -24,7 +24,7 @@ def spread(values, form):
 
 
 def column(folder, out):
-    """A cell for each row of the table."""
+    """Returns a cell for each row of the table."""
     summary = mapped(folder, out)
     with open(out / "stats.csv", newline="") as file:
         frames = [row for row in csv.DictReader(file) if row["accepted"] == "1"]
@@ -50,7 +50,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("worlds", type=Path)
     parser.add_argument("real", type=Path, nargs="*")
-    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    parser.add_argument("-o", "--output", type=Path, help="output table for a README")
     arguments = parser.parse_args()
     before = commit()
     folders = [simulated(arguments.worlds / f"{world}{SEED}", world, SEED, LENGTH) for world in WORLDS] + arguments.real

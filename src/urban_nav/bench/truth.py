@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The truth of a simulated session, read from its folder with numpy and OpenCV alone, and poses as 4x4 matrices."""
+"""The truth of a simulated session, read from its folder with only numpy and OpenCV, with poses as 4x4 matrices."""
 import cv2
 import numpy as np
 
@@ -7,12 +7,12 @@ import bags
 
 
 class Truth:
-    """base_link in `world` at any time between the poses of trajectory.tum: by the cubic through the four next to it."""
+    """Returns base_link in `world` at any time between the poses of trajectory.tum by the cubic through the nearest four."""
 
     def __init__(self, path):
         rows = np.loadtxt(path)
         self.stamps, self.places, self.quaternions = rows[:, 0], rows[:, 1:4], rows[:, 4:8]
-        for i in range(1, len(rows)):  # the same turn, on the side of the sphere where its neighbour is
+        for i in range(1, len(rows)):  # same rotation, with the sign nearest to its predecessor
             if self.quaternions[i] @ self.quaternions[i - 1] < 0:
                 self.quaternions[i] *= -1
 
@@ -36,14 +36,14 @@ class Truth:
         return poses
 
     def rates(self, when):
-        """Angular velocity in the axes of base_link, rad/s, over 5 ms."""
+        """Returns the angular velocity in the axes of base_link, rad/s, over 5 ms."""
         before, after = self.at(when - 0.0025), self.at(when + 0.0025)
         return np.array([cv2.Rodrigues(a[:3, :3].T @ b[:3, :3])[0].ravel() for a, b in zip(before, after)]) / 0.005
 
 
 class Surface:
-    """The true surfaces, as points of cloud.ply; a plane through the nearest twelve where they lie in one. `rough`: share of the extent by which
-    they may lie beside it."""
+    """The true surfaces as points of cloud.ply, with a plane through the nearest twelve if they are coplanar. `rough`: share of the extent by which
+    they may deviate from it."""
 
     def __init__(self, path, way, rough=1e-3):
         self.rough = rough
@@ -59,7 +59,7 @@ class Surface:
         self.index = cv2.flann_Index(self.points, {"algorithm": 4})  # a kd-tree, exact
 
     def planes(self, queries):
-        """Centre, normal and whether there is a plane at all near each point."""
+        """Returns centre, normal and whether there is a plane near each point."""
         near, squares = self.index.knnSearch(np.ascontiguousarray(queries, np.float32), 12, params={"checks": -1})
         patch = self.points[near].astype(float)
         centre = patch.mean(1)
@@ -69,7 +69,7 @@ class Surface:
         return centre, vectors[:, :, 0], flat & (squares[:, 0] < 0.3 ** 2)
 
     def along(self, origins, points):
-        """How far (m, along the ray from its origin) each point lies behind the plane beside it, and which have one."""
+        """Returns the distance (m, along the ray from its origin) of each point behind the nearest plane, and which points have one."""
         centre, normal, flat = self.planes(points)
         ray = points - origins
         ray /= np.linalg.norm(ray, axis=1, keepdims=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Visual odometry in the simulated worlds: how hard they are, and how good it is there.
+"""Visual odometry in the simulated worlds: difficulty and accuracy.
 
 Drives each world, maps what the stereo camera saw with the shipped parameters, runs plain odometry on it (swf_vo-bench-plain: a window of one frame,
 without a prior, with corners at whole pixels), and compares both with the truth. The stereo streams stay in the folder, so that other systems can run
@@ -28,7 +28,7 @@ def row(world, system, found):
 
 
 def evaluated(folder, poses, found):
-    """Poses of a folder's left camera, compared with the truth that lies there; `found`: file for the figures."""
+    """Compares poses of the left camera of a folder with the truth in it; `found`: file for the figures."""
     urban_nav("evaluate", "--truth", folder / "poses.txt", "--estimate", poses, "--spans", "10m", "--json", found)
     return json.loads(found.read_text())
 
@@ -54,12 +54,12 @@ def rows_of(world, arguments):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="for what is simulated and mapped; what is there already is taken")
+    parser.add_argument("folder", type=Path, help="folder of simulated sessions and maps; existing ones are used")
     parser.add_argument("--world", action="append", choices=WORLDS, help="default: all")
     parser.add_argument("--seed", type=int, default=7)
-    parser.add_argument("--duration", type=int, default=60, help="s, of each (default 60)")
-    parser.add_argument("--peer", action="append", default=[], metavar="NAME=WORLD=POSES", help="KITTI's poses.txt of another system")
-    parser.add_argument("-o", "--output", type=Path, help="the table, for a README")
+    parser.add_argument("--duration", type=int, default=60, help="s, duration of each (default 60)")
+    parser.add_argument("--peer", action="append", default=[], metavar="NAME=WORLD=POSES", help="poses.txt (KITTI) of another system")
+    parser.add_argument("-o", "--output", type=Path, help="output table for a README")
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     before = commit()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Settings with which cpack makes a .deb of the whole workspace (scripts/make_deb.sh configures one for /usr).
+# Settings of cpack for a .deb of the whole workspace (scripts/make_deb.sh configures one for /usr).
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME urban-nav)
 set(CPACK_PACKAGE_VENDOR urban_nav)
@@ -10,7 +10,7 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-# The libraries of Debian that ours are linked with, as dpkg-shlibdeps finds them; the Python module needs numpy.
+# Linked libraries of Debian, found by dpkg-shlibdeps; the Python module needs numpy.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Below /usr, libraries are in the folder of the architecture, in the devel space too.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CATKIN_DEVEL_PREFIX}/lib ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_LIB_DESTINATION})

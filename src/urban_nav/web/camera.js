@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A camera that orbits a point of the map: z is up, angles in rad, lengths in m. No page is needed.
+// A camera that orbits a point of the map: z is up, angles in rad, lengths in m. Independent of the page.
 "use strict";
 ((nav) => {
-  const FOCAL = 1.6; // of half the height of the picture
+  const FOCAL = 1.6; // in units of half the image height
 
   nav.Camera = class {
     constructor(centre = [0, 0, 0], distance = 10, yaw = -0.9, pitch = 0.6) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is shown of sessions, closures and edits. No page is needed.
+// Lists of sessions, closures and edits. Independent of the page.
 "use strict";
 ((nav) => {
   /** Closures that pass a filter {verdict, kind, session}; empty members let all pass. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The page of `urban_nav view`: what the server has is shown, and each control sends a command of `edge`.
+// The page of `urban_nav view`: shows the data of the server; each control sends a command of `edge`.
 "use strict";
 ((nav) => {
   if (!globalThis.document || !document.getElementById("edit-rows")) return;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paths and closures, drawn without WebGL over whatever lies below.
+// Paths and closures, drawn without WebGL over other content.
 "use strict";
 ((nav) => {
   nav.sessionColours = ["#1f6feb", "#d9480f", "#0c8599", "#9c36b5", "#5c940d", "#e67700", "#c2255c", "#495057"];
-  const MOST_DRAWN = 20000, // poses of all paths in a picture
-    MOST_LINES = 600; // from poses to where another map has them
+  const MOST_DRAWN = 20000, // poses of all paths in an image
+    MOST_LINES = 600; // from poses to their positions in another map
 
   /** Positions of all sessions from the bytes of the server: maps that nothing joins lie side by side along x. Returns
    * {times, points} of each session in the order of the state, and the box around all. */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points of the map: their bytes, their colours, and WebGL that draws them. Without WebGL nothing is drawn.
+// Points of the map: encoding, colours, and drawing by WebGL. Without WebGL no points are drawn.
 "use strict";
 ((nav) => {
-  const BYTES = 24, // of a point: x, y, z, seconds (float32), session (uint16), sensor, sigma, red, green, blue, reflectance
+  const BYTES = 24, // per point: x, y, z, seconds (float32), session (uint16), sensor, sigma, red, green, blue, reflectance
     LAYOUT = {stride: BYTES, sensor: 18, sigma: 19, red: 20, reflectance: 23};
   const LINE = [0.86, 0.16, 0.16, 1]; // red, green, blue, opacity
   const KINDS = [

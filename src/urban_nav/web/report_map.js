@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The map in a report: points that the page itself holds, drawn and coloured as those of `view`.
+// The map in a report: points embedded in the page, drawn and coloured as in `view`.
 "use strict";
 ((nav) => {
   const LAYOUT = {stride: 8, red: 0, reflectance: 3, sensor: 4, pass: 5, sigma: 6, quality: 7};

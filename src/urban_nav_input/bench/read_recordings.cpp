@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Processor time to read all messages of recordings, best of five:
 //   read_recordings RECORDING...
-// A ROS 1 bag is read by librosbag alone too, and the chunks of an MCAP file are decompressed alone too: the times that
-// those of the storages are compared with.
+// As references, a ROS 1 bag is also read by librosbag alone, and the chunks of an MCAP file are also only
+// decompressed.
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
@@ -30,7 +30,7 @@ double processorSeconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Prints the shortest of some runs of `read`, which returns the number of bytes.
+/// Prints the shortest of several runs of `read`, which returns the number of bytes.
 void measure(const std::string& name, const std::function<std::size_t()>& read) {
   double best = std::numeric_limits<double>::infinity();
   std::size_t bytes = 0;

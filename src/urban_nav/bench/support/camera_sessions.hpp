@@ -7,11 +7,11 @@
 namespace urban_nav::bench {
 
 /// A started camera of the bus with a simulated clock, which advances to the time it waits for. Frames are in memory;
-/// handing one out costs one copy, as with a ring of buffers.
+/// passing one on costs one copy, as with a ring buffer.
 struct CameraSession {
   std::string name;
   double period = 0.0;  ///< s between frames
-  /// Runs until `frames` frames have been sent since the start. Returns the number of frames handed out in this call.
+  /// Runs until `frames` frames have been sent since the start. Returns the number of frames passed on in this call.
   std::function<int(int frames)> run_until;
 };
 

@@ -18,7 +18,7 @@ enum class DeviceFaultKind : std::uint8_t {
   Silence,    ///< nothing is sent
   Nak,        ///< commands are refused
   Late,       ///< replies are late; value: ms (default 200)
-  Streaming,  ///< the device streams already when the session begins
+  Streaming,  ///< the device is already streaming at the start of the session
   Baud,       ///< the device changes its line rate; value: baud (default 9600)
   Mode,       ///< the configuration is changed
   Power,      ///< the device is off, then boots; value: s of booting (default 1)
