@@ -17,7 +17,7 @@ using urban_nav_core::UserError;
 namespace {
 
 constexpr const char* kKnownInputs =
-    "a recording (ROS 1 bag, MCAP, .db3, folder of rosbag2), a KITTI folder "
+    "a recording (ROS 1 bag, MCAP, .db3, folder of rosbag2), a KITTI folder"
     " (image_0/, image_1/, calib.txt; image_00/data/ too; velodyne/ or velodyne_points/), a EuRoC folder (mav0/), or a "
     "New "
     "College folder (*.alog, StereoImages/)";
