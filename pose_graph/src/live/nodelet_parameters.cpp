@@ -39,9 +39,6 @@ const Table<NodeletParameters>& nodeletTable() {
           {"queue_size", &P::queue_size, "messages", 20000, 2, 10000000, {},
            "Inputs that may wait while a relaxation runs; beyond that the oldest is dropped and counted.",
            "docs/architecture.md", {"queue"}},
-          {"drain_s", &P::drain_s, "s", 10.0, 0.0, 3600.0, {},
-           "Time after an interrupt within which the last poses and closures of other stages are received and stored; "
-           "longer than theirs. What is given up is logged.", "docs/architecture.md"},
           {"visualization_period", &P::visualization_period, "s", 1.0, 0.05, 3600.0, {},
            "Minimum time between two publications of path and markers.", "", {"picture_period"}},
           {"path_spacing", &P::path_spacing, "m", 1.0, 0.01, 1000.0, {},
