@@ -230,7 +230,7 @@ TEST_F(ViewServer, PagesFollowEditsOfEachOtherAndOfTheCommand) {
   ASSERT_EQ(served.edit(R"({"action": "reject", "arguments": ["3"]})").status, 200);
   const std::string second = page.readUntil("\"revision\": 2");
   EXPECT_NE(second.find("\"running\": \"reject 3\""), std::string::npos) << second;
-  EXPECT_NE(second.find("edit 1 made"), std::string::npos) << second;
+  EXPECT_NE(second.find("edit 1 applied"), std::string::npos) << second;
   {
     Store store(store_, Access::Write);
     urban_nav_store::EditJournal(store).undo(1);

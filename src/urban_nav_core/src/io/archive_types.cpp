@@ -26,7 +26,7 @@ void archive(Archive& archive, RelativePose& value) {
 
 void archive(Archive& archive, MotionInput& input) {
   Pose sensor(input.q_base_sensor, Vector3d::Zero());
-  archive(input.from, input.to, input.T_from_to, input.information, input.source, sensor);
+  archive(input.from, input.to, input.T_from_to, input.information, input.source, sensor, input.specific_force);
   archive.require(input.source >= MotionSource::Given && input.source <= MotionSource::Wheels,
                   "a motion source is unknown");
   input.q_base_sensor = sensor.q();
