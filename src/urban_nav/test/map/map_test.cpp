@@ -113,7 +113,7 @@ TEST_F(Map, TheReportOfARecordingThatGoesOnRefreshesItself) {
     map({in()}, folder.file("out"), 1, [&](MapOptions& request) { request.so_far = so_far; });
     const std::string report = readFile(folder.file("out/report.html"));
     EXPECT_NE(report.find("href=\"#truth\""), std::string::npos) << "what there is, is compared with the truth";
-    EXPECT_EQ(report.find("still at work, 25 %") != std::string::npos, so_far < 1.0);
+    EXPECT_EQ(report.find("in progress, 25 %") != std::string::npos, so_far < 1.0);
     return report.find("http-equiv=\"refresh\"") != std::string::npos;
   };
   EXPECT_TRUE(refreshes(0.25));

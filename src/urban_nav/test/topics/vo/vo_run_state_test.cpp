@@ -178,6 +178,7 @@ TEST(VoState, EarlierVersionsAreReadWithoutConstantsOfTheRig) {
   run.rig.delay_s = 1e-3;
   run.motion.wheel_scale = 1.02;
   run.frames[0].compared.disparity_step_px = 0.25;
+  run.figures.back().statistics.right_turn_rad.y() = 0.004;
   ASSERT_EQ(run.settled.size(), 1U);
   run.settled[0].from_previous.constants = {{"scale", 0.0, 0.0, 5e-4, urban_nav_core::Vector6d::Unit(2)}};
   const std::string now = packVoRun(run);
@@ -186,17 +187,25 @@ TEST(VoState, EarlierVersionsAreReadWithoutConstantsOfTheRig) {
   ASSERT_EQ(same.rig.delay_s, 1e-3);
   ASSERT_EQ(same.motion.wheel_scale, 1.02);
   ASSERT_EQ(same.frames[0].compared.disparity_step_px, 0.25);
+  ASSERT_EQ(same.rig.right_turn_rad.y(), 0.004);
   ASSERT_EQ(same.settled[0].from_previous.constants.size(), 1U);
   EXPECT_TRUE(isApprox(same.settled[0].from_previous, run.settled[0].from_previous, 0.0));
-  // The comparisons of each frame, version 7, come last. Before them the states of motion sensors, version 6, and
+  // The turn of the right camera in each frame, version 8, comes last. Before it are the comparisons of each frame,
+  // version 7, the states of motion sensors, version 6, and
   // those of version 5: number of steps, number of constants, length of a name and its five letters, nine numbers.
   // Those of version 4, five numbers, precede them.
-  urban_nav_core::Archive compared, motion;
+  urban_nav_core::Archive turns, compared, motion;
+  std::vector<urban_nav_core::Vector3d> turned(run.frames.size(), urban_nav_core::Vector3d::Zero());
+  turns(turned);
   std::vector<urban_nav_core::FrameMeasurements> each;
   for (const OdometryFrame& frame : run.frames) each.push_back(frame.compared);
   compared(each);
   motion(run.motion);
-  std::string content(urban_nav_core::unseal(name, 7, now));
+  std::string content(urban_nav_core::unseal(name, 8, now));
+  content.resize(content.size() - turns.take().size());
+  const VoRun seventh = unpackVoRun(urban_nav_core::seal(name, 7, content)).value();
+  EXPECT_EQ(seventh.frames[0].compared.disparity_step_px, 0.25);
+  EXPECT_TRUE(seventh.rig.right_turn_rad.isZero(0.0));
   content.resize(content.size() - compared.take().size());
   const VoRun sixth = unpackVoRun(urban_nav_core::seal(name, 6, content)).value();
   EXPECT_EQ(sixth.motion.wheel_scale, 1.02);
