@@ -47,7 +47,9 @@ TEST(CalibrationReport, SaysWhatWasFoundAndWhatTheSessionCannotTell) {
   const std::vector<std::string> sentences = calibrationSentences(run);
   EXPECT_TRUE(holds(sentences, "calibration of quad: adopted"));
   EXPECT_TRUE(holds(sentences, "laser_left: delay of its stamps 30 +- 0.4 ms"));
-  EXPECT_TRUE(holds(sentences, "not observable in this session: delay of laser_right; shift of panorama along its x axis (forward)"));
+  EXPECT_TRUE(holds(sentences,
+                    "not observable in this session: delay of laser_right; shift of panorama along its x axis "
+                    "(forward)"));
   const std::vector<PageTable> tables = calibrationTables(run);
   ASSERT_EQ(tables.size(), 1U);
   EXPECT_EQ(tables[0].rows.size(), 21U);
