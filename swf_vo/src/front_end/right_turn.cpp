@@ -24,7 +24,7 @@ constexpr double kFalseAlarm = 1e-5;
 constexpr std::int64_t kFramesPerHour = 20 * 3600;
 constexpr StampNs kLandmarkRenewal = 3'000'000'000;
 constexpr std::size_t kRecentSteps = 256;
-constexpr double kLargestTurn = 0.2;  // rad
+constexpr double kLargestTurn = M_PI;  // rad, of a rotation vector
 
 ConstantMeasurement toMeasurement(const DisparityStep& step, StampNs stamp) {
   return {{stamp, stamp}, step.px, std::sqrt(kSharedLandmarks) * std::hypot(step.sigma_px, kStepFloorPx)};

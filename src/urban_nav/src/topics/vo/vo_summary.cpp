@@ -89,7 +89,7 @@ void addTurns(const VoRun& run, std::vector<std::string>& warnings) {
         urban_nav_core::formatNumber(change.norm(), 2) + " deg (yaw " + urban_nav_core::formatNumber(change.y(), 2) +
         ", pitch " + urban_nav_core::formatNumber(change.x(), 2) + ", roll " +
         urban_nav_core::formatNumber(change.z(), 2) +
-        " deg of the right one); later images are corrected for it: check the mounts and calibrate the pair anew");
+        " deg of the right one); later images are corrected for it: check the mounts and calibrate the pair again");
   }
 }
 
