@@ -41,6 +41,7 @@ Trust toMessage(const LiveEstimate& estimate, const Parameters& parameters, cons
     each.p_value = test.p_value;
     each.sentence = test.sentence;
     each.remedy = test.remedy;
+    each.corrected = test.is_corrected;
     message.tests.push_back(std::move(each));
   }
   for (const AbsentMeasurement& missing : estimate.results.absent) {

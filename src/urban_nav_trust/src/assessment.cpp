@@ -49,10 +49,11 @@ FrameTrust assessFrame(const FrameEvidence& frame, const std::vector<Failure>& f
                        const Confirmation& confirmation, const Parameters& parameters) {
   FrameTrust trust;
   trust.stamp = frame.stamp;
-  trust.state = classify(frame, !failures.empty(), confirmation.isComplete());
+  const bool fails = std::any_of(failures.begin(), failures.end(), [](const Failure& each) { return each.is_present; });
+  trust.state = classify(frame, fails, confirmation.isComplete());
   double widening = 0.0;
   for (const Failure& failure : failures) {
-    trust.tests += (trust.tests.empty() ? "" : " ") + failure.test;
+    if (failure.is_present) trust.tests += (trust.tests.empty() ? "" : " ") + failure.test;
     const double drift = 0.01 * parameters.unexplained_drift * failure.distance;
     widening += drift * drift;
   }
@@ -85,7 +86,9 @@ std::vector<FrameTrust> assessFrames(const std::vector<FrameEvidence>& frames, c
     for (const ConsistencyTest* test : failed) {
       if (!spreads && frame.stamp < test->interval.from) continue;
       const urban_nav_core::StampNs end = spreads ? test->interval.to : std::min(frame.stamp, test->interval.to);
-      failures.push_back({test->name, travelledAt(frames, end) - travelledAt(frames, test->interval.from)});
+      const bool is_inside = frame.stamp >= test->interval.from && frame.stamp <= test->interval.to;
+      failures.push_back({test->name, travelledAt(frames, end) - travelledAt(frames, test->interval.from),
+                          !test->is_corrected || is_inside});
     }
     trusts.push_back(assessFrame(frame, failures, confirmation, parameters));
   }
@@ -99,7 +102,7 @@ MapTrust assessMap(const std::vector<FrameTrust>& frames, const TestResults& res
       map.probabilities[k] += frame.probabilities[k] / static_cast<double>(frames.size());
   std::string failed;
   for (const ConsistencyTest& test : results.tests)
-    if (hasFailed(test, parameters)) failed += (failed.empty() ? "" : "; ") + test.sentence;
+    if (hasFailed(test, parameters) && !test.is_corrected) failed += (failed.empty() ? "" : "; ") + test.sentence;
   if (frames.empty()) {
     map.reason = "there is no pose";
   } else if (2 * count(frames, TrustState::Lost) > frames.size()) {

@@ -5,7 +5,7 @@ namespace urban_nav_trust {
 
 bool TrustMonitor::add(const urban_nav_core::FrameMeasurements& frame) {
   const bool moved = motion_.add(frame);
-  return offset_.add(frame.stamp, frame.disparity_step_px, frame.disparity_step_sigma_px) || moved;
+  return offset_.add(frame) || moved;
 }
 
 TestResults TrustMonitor::results() const {

@@ -103,6 +103,27 @@ TEST(Assessment, IsKnownWhereTestsPassAndOdometryIsNotLost) {
   EXPECT_TRUE(map.reason.empty());
 }
 
+TEST(Assessment, AFailureWhoseCauseWasCorrectedAffectsItsIntervalOnly) {
+  TestResults results;
+  results.tests = bothPass();
+  results.tests.push_back(makeTest("a", 1e-9, 50, 52));
+  results.tests.back().is_corrected = true;
+  for (const bool spreads : {false, true}) {
+    const auto frames = assessFrames(drive(), results, spreads, {});
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const bool is_inside = i >= 50 && i <= 52;
+      EXPECT_EQ(frames[i].state, is_inside ? TrustState::Unsure : TrustState::Known) << i;
+      EXPECT_EQ(frames[i].tests, is_inside ? "a" : "") << i;
+    }
+    EXPECT_LT(frames[99].probabilities[0], frames[49].probabilities[0] + (spreads ? 1e-9 : 0.0))
+        << "positions are off by the drift of the interval";
+    EXPECT_NEAR(frames[99].probabilities[0], frames[60].probabilities[0], 1e-9);
+    const MapTrust map = assessMap(frames, results, {});
+    EXPECT_EQ(map.state, TrustState::Known);
+    EXPECT_TRUE(map.reason.empty()) << map.reason;
+  }
+}
+
 TEST(Assessment, AFailureWidensAndNamesItselfFromItsBeginOn) {
   TestResults results;
   results.tests = bothPass();

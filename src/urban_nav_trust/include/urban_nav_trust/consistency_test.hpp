@@ -18,6 +18,8 @@ struct ConsistencyTest {
   double p_value = 1.0;  ///< probability of at least this statistic if both measurements are right; 0...1
   std::string sentence;  ///< finding, with numbers and units
   std::string remedy;    ///< for the user; also set if the test passes
+  /// The test fails, but its cause was measured: results are corrected from the end of `interval` on.
+  bool is_corrected = false;
 };
 
 /// Test that was not possible, with the reason.

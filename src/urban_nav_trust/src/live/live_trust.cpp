@@ -56,7 +56,7 @@ void LiveTrust::add(const LiveFrame& frame) {
   if (!frame.accepted) return;
   ++frames_;
   health_ = frame.health;
-  if (monitor_.add(frame.compared) && !changed_at_) changed_at_ = travelled_;
+  if (monitor_.add(frame.compared) && (!changed_at_ || !hasLastingFailure())) changed_at_ = travelled_;
 }
 
 void LiveTrust::add(const LiveStep& step) { monitor_.add(step.step); }
@@ -85,10 +85,20 @@ LiveEstimate LiveTrust::assess(const LivePose& pose) const {
   evidence.is_lost = health_ == Health::Lost;
   std::vector<Failure> failures;
   for (const ConsistencyTest& test : estimate.results.tests)
-    if (hasFailed(test, parameters_)) failures.push_back({test.name, travelled_ - changed_at_.value_or(0.0)});
+    if (isPresent(test))
+      failures.push_back({test.name, test.is_corrected ? 0.0 : travelled_ - changed_at_.value_or(0.0)});
   estimate.frame = assessFrame(evidence, failures, confirm(estimate.results), parameters_);
   estimate.reason = assessMap({estimate.frame}, estimate.results, parameters_).reason;
   return estimate;
+}
+
+bool LiveTrust::isPresent(const ConsistencyTest& test) const {
+  return hasFailed(test, parameters_) && (!test.is_corrected || newest_ < test.interval.to + kLandmarkRenewal);
+}
+
+bool LiveTrust::hasLastingFailure() const {
+  return last_ && std::any_of(last_->results.tests.begin(), last_->results.tests.end(),
+                              [this](const auto& test) { return hasFailed(test, parameters_) && !test.is_corrected; });
 }
 
 urban_nav_core::Status LiveTrust::status() const {
@@ -96,8 +106,7 @@ urban_nav_core::Status LiveTrust::status() const {
     return {Health::Lost, static_cast<int>(Reason::OdometryLost), "odometry is lost: the position is a prediction"};
   if (!changed_at_) return {};
   for (const ConsistencyTest& test : monitor_.results().tests)
-    if (hasFailed(test, parameters_))
-      return {Health::Degraded, static_cast<int>(Reason::CalibrationChanged), test.sentence};
+    if (isPresent(test)) return {Health::Degraded, static_cast<int>(Reason::CalibrationChanged), test.sentence};
   return {};
 }
 

@@ -60,12 +60,17 @@ class LiveTrust {
   void add(const LivePose& pose);
   /// Begins a new session.
   void reset();
-  /// Returns DEGRADED (calibration_changed) from a change to the end of the session, and LOST while odometry is lost.
+  /// Returns LOST while odometry is lost, and DEGRADED (calibration_changed) after a change: to the end of the session,
+  /// or, if odometry corrected it, until all landmarks were created with the new mounting.
   urban_nav_core::Status status() const;
   urban_nav_live::StageReport report() const;
 
  private:
   LiveEstimate assess(const LivePose& pose) const;
+  /// Returns whether a test fails whose cause affects the newest pose.
+  bool isPresent(const ConsistencyTest& test) const;
+  /// Returns whether a test failed in the last estimate whose cause was not corrected.
+  bool hasLastingFailure() const;
 
   const Parameters parameters_;
   const Listener listener_;
@@ -74,7 +79,7 @@ class LiveTrust {
   urban_nav_core::Health health_ = urban_nav_core::Health::Ok;
   std::optional<Eigen::Vector3d> position_;
   double travelled_ = 0.0;            // m
-  std::optional<double> changed_at_;  // travelled_ at the first change of a constant
+  std::optional<double> changed_at_;  // travelled_ at the first change of a constant that was not corrected
   std::optional<LiveEstimate> last_;  // last published estimate
   std::int64_t frames_ = 0, poses_ = 0;
 };

@@ -22,6 +22,7 @@ class LiveTrustTest : public ::testing::Test {
       frame.compared.stamp = frame.stamp;
       frame.compared.disparity_step_px = step_px + (k_ % 2 == 0 ? 0.01 : -0.01);
       frame.compared.disparity_step_sigma_px = sigma_px;
+      frame.compared.right_turn = turn;
       frame.compared.turn_sigma = 1e-3;
       frame.compared.forward = 0.05;
       frame.compared.forward_sigma = has_wheels ? 1e-3 : 0.0;
@@ -42,6 +43,7 @@ class LiveTrustTest : public ::testing::Test {
   std::vector<LiveEstimate> estimates;
   LiveTrust trust{Parameters(), [this](const LiveEstimate& estimate) { estimates.push_back(estimate); }};
   bool has_wheels = true;
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   urban_nav_core::StampNs k_ = 0;
 };
 
@@ -94,6 +96,26 @@ TEST_F(LiveTrustTest, AKnockDegradesWithinASecondAndStays) {
   EXPECT_STREQ(toString(static_cast<Reason>(status.reason)), "calibration_changed");
   trust.reset();
   EXPECT_EQ(trust.status().health, Health::Ok);
+}
+
+TEST_F(LiveTrustTest, AKnockThatOdometryCorrectsDegradesUntilTheLandmarksAreRenewed) {
+  drive(200);
+  const double before = estimates.back().frame.probabilities[0];
+  turn.y() = -0.0035;
+  drive(20, -1.36);
+  EXPECT_EQ(estimates.back().frame.state, TrustState::Unsure);
+  EXPECT_EQ(estimates.back().frame.tests, kOffsetTest);
+  EXPECT_EQ(trust.status().health, Health::Degraded);
+  drive(60);
+  EXPECT_EQ(estimates.back().frame.state, TrustState::Known);
+  EXPECT_TRUE(estimates.back().reason.empty()) << estimates.back().reason;
+  EXPECT_NEAR(estimates.back().frame.probabilities[0], before, 1e-6);
+  EXPECT_EQ(trust.status().health, Health::Ok);
+  drive(60, 1.0);  // a second knock, which odometry does not correct
+  drive(100);
+  EXPECT_EQ(estimates.back().frame.state, TrustState::Unsure);
+  EXPECT_LT(estimates.back().frame.probabilities[0], before);
+  EXPECT_EQ(trust.status().health, Health::Degraded);
 }
 
 TEST_F(LiveTrustTest, IsNeverKnownWhileOdometryIsLost) {

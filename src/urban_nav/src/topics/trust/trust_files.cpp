@@ -23,7 +23,8 @@ Json toJson(const ConsistencyTest& test, bool has_failed) {
                        {"degrees_of_freedom", test.degrees_of_freedom},
                        {"p_value", test.p_value},
                        {"sentence", test.sentence},
-                       {"remedy", test.remedy}});
+                       {"remedy", test.remedy},
+                       {"corrected", has_failed && test.is_corrected}});
 }
 
 }  // namespace

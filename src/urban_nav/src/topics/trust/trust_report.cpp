@@ -36,6 +36,14 @@ std::string probabilitySentence(const TrustRun& run, const std::string& by) {
   return text + ".";
 }
 
+/// Returns the sentences of the failed tests whose causes were corrected.
+std::string correctedSentences(const TrustRun& run, const urban_nav_trust::Parameters& parameters) {
+  std::string text;
+  for (const ConsistencyTest& test : run.results.tests)
+    if (hasFailed(test, parameters) && test.is_corrected) text += (text.empty() ? "" : " ") + test.sentence;
+  return text;
+}
+
 Figure probabilityFigure(const TrustRun& run) {
   static constexpr const char* kColours[] = {"a", "b", "c"};
   Plot plot;
@@ -65,6 +73,11 @@ Verdict trustVerdict(const TrustRun& run, const urban_nav_trust::Parameters& par
   const std::string tests = std::to_string(run.results.tests.size());
   switch (run.map.state) {
     case TrustState::Known:
+      if (failed > 0)
+        return {
+            Grade::Fair, "The map can be trusted, but the rig changed: odometry measured the change and corrected it.",
+            correctedSentences(run, parameters) + " The other " + std::to_string(run.results.tests.size() - failed) +
+                " consistency tests passed. " + probabilitySentence(run, kByCovariance)};
       return {Grade::Good, "The map can be trusted.",
               tests + " consistency tests passed. " + probabilitySentence(run, kByCovariance)};
     case TrustState::New:
@@ -97,9 +110,12 @@ Section trustSection(const TrustRun& run, const urban_nav_trust::Parameters& par
                   ""};
   for (const ConsistencyTest& test : run.results.tests) {
     const bool has_failed = hasFailed(test, parameters);
-    tests.rows.push_back({test.name, has_failed ? "failed" : "passed", formatNumber(test.statistic),
-                          formatNumber(test.degrees_of_freedom), formatNumber(test.p_value), test.sentence,
-                          has_failed ? test.remedy : ""});
+    tests.rows.push_back({test.name,
+                          !has_failed         ? "passed"
+                          : test.is_corrected ? "failed, corrected"
+                                              : "failed",
+                          formatNumber(test.statistic), formatNumber(test.degrees_of_freedom),
+                          formatNumber(test.p_value), test.sentence, has_failed ? test.remedy : ""});
   }
   if (!tests.rows.empty()) section.tables.push_back(std::move(tests));
   PageTable absent{"Not compared", {"test", "reason"}, {}, ""};

@@ -21,7 +21,8 @@ using urban_nav_trust::TestResults;
 
 namespace {
 
-constexpr double kUnknownVariance = 1e6;  // m^2, of a pose without covariance
+constexpr double kUnknownVariance = 1e6;         // m^2, of a pose without covariance
+constexpr const char* kCorrected = "corrected";  // verdict of a failed test whose cause was corrected
 
 /// Stores the tests of a session, replacing those of an earlier run.
 void storeTests(const TestResults& results, const urban_nav_trust::Parameters& parameters,
@@ -34,8 +35,12 @@ void storeTests(const TestResults& results, const urban_nav_trust::Parameters& p
     rows.remove(key);
   }
   for (const ConsistencyTest& test : results.tests)
-    rows.put({session, test.name, hasFailed(test, parameters) ? "failed" : "passed", test.interval.from,
-              test.interval.to, test.statistic, test.degrees_of_freedom, test.p_value, test.sentence, test.remedy});
+    rows.put({session, test.name,
+              !hasFailed(test, parameters) ? "passed"
+              : test.is_corrected          ? kCorrected
+                                           : "failed",
+              test.interval.from, test.interval.to, test.statistic, test.degrees_of_freedom, test.p_value,
+              test.sentence, test.remedy});
 }
 
 /// Returns the stored tests of a session.
@@ -49,7 +54,8 @@ TestResults readTests(const urban_nav_store::SessionId& session, urban_nav_store
                                  row.degrees_of_freedom,
                                  row.p_value,
                                  row.sentence,
-                                 row.remedy});
+                                 row.remedy,
+                                 row.verdict == kCorrected});
       });
   return results;
 }

@@ -46,6 +46,7 @@ VoRun& describeInput(VoRun& run, const urban_nav_input::SourceInfo& info) {
 urban_nav_core::FrameMeasurements toMeasurements(const Frame& frame, urban_nav_core::StampNs stamp) {
   urban_nav_core::FrameMeasurements measured;
   measured.stamp = stamp;
+  measured.right_turn = frame.rig.right_turn_rad;
   if (!frame.accepted) return measured;
   measured.disparity_step_px = frame.statistics.disparity_step.px;
   measured.disparity_step_sigma_px = frame.statistics.disparity_step.sigma_px;

@@ -67,7 +67,8 @@ void fromStored(const StoredRun& stored, VoRun& run) {
     run.settled[i].from_previous.constants = stored.constants[i];
   for (std::size_t i = 0; i < stored.compared.size(); ++i) run.frames[i].compared = stored.compared[i];
   for (std::size_t i = 0; i < stored.right_turns.size(); ++i)
-    run.rig.right_turn_rad = run.figures[i].statistics.right_turn_rad = stored.right_turns[i];
+    run.rig.right_turn_rad = run.figures[i].statistics.right_turn_rad = run.frames[i].compared.right_turn =
+        stored.right_turns[i];
 }
 
 /// Reads the content of version 2: poses with the translation first, matrices row by row.

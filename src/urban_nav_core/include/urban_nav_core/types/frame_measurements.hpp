@@ -14,6 +14,9 @@ struct FrameMeasurements {
   StampNs stamp = 0;
   /// Excess of disparities over those predicted from earlier frames, px.
   double disparity_step_px = 0.0, disparity_step_sigma_px = 0.0;
+  /// Rotation vector of the right stereo camera relative to its calibrated orientation, in its optical frame, rad, by
+  /// which odometry corrects the images of this frame. Not archived.
+  Eigen::Vector3d right_turn = Eigen::Vector3d::Zero();
   /// Rotation from images minus rotation from the gyroscope over one step, rad, about the axes of base_link; sigma of
   /// each axis.
   Eigen::Vector3d turn_error = Eigen::Vector3d::Zero();

@@ -14,7 +14,7 @@ namespace urban_nav_store {
 struct StoredTest {
   SessionId session;
   std::string name;
-  std::string verdict;  ///< "passed", "failed"
+  std::string verdict;  ///< "passed", "failed", "corrected" (failed, with ConsistencyTest::is_corrected)
   urban_nav_core::StampNs from = 0, to = 0;
   double statistic = 0.0, degrees_of_freedom = 0.0, p_value = 1.0;
   std::string sentence, remedy;
