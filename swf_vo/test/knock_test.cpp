@@ -32,11 +32,12 @@ class KnockedDrive {
     options.camera = roomCamera();
     options.noise = 1.0;
     const Pose T_left_right(Quaterniond::Identity(), Vector3d(options.camera.baseline, 0.0, 0.0));
-    const Quaterniond q = knock.isZero() ? Quaterniond::Identity()
-                                         : Quaterniond(Eigen::AngleAxisd(knock.norm(), knock.normalized()));
+    const Quaterniond q =
+        knock.isZero() ? Quaterniond::Identity() : Quaterniond(Eigen::AngleAxisd(knock.norm(), knock.normalized()));
     const Pose T_left_knocked = T_left_right * Pose(q, Vector3d::Zero()) * T_left_right.inverse();
     RenderedSequence sound(texturedRoom(), motion, options);
-    RenderedSequence knocked(texturedRoom(), [=](double t) { return motion(t) * T_left_knocked; }, options);
+    RenderedSequence knocked(
+        texturedRoom(), [=](double t) { return motion(t) * T_left_knocked; }, options);
     SwfVo filter(Parameters(), stereoCamera(), Pose());
     for (int i = 0; i < kKnockFrames; ++i) {
       const auto& pair = sound.frame(i);
@@ -72,7 +73,8 @@ TEST(Knock, NoneIsFoundWhereThereIsNone) {
 
 TEST(Knock, IsCorrectedFromItsFrameOn) {
   const double sound = KnockedDrive(Vector3d::Zero()).endError();
-  for (const Vector3d& degrees : {Vector3d(0.0, 0.3, 0.0), Vector3d(0.0, -1.0, 0.0), Vector3d(0.2, 0.3, -0.2)}) {
+  for (const Vector3d& degrees : {Vector3d(0.0, 0.3, 0.0), Vector3d(0.0, -1.0, 0.0), Vector3d(0.2, 0.3, -0.2),
+                                  Vector3d(0.0, 0.0, 1.0), Vector3d(0.0, 0.06, 0.0)}) {
     const Vector3d knock = degrees * kDegrees;
     const KnockedDrive drive(knock);
     EXPECT_TRUE(drive.turns[kKnocked - 1].isZero(0.0)) << degrees.transpose();

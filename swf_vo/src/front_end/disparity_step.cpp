@@ -13,7 +13,7 @@ namespace {
 bool isCompared(const Match& match) { return match.left.found && match.right.found && match.track->seen >= 2; }
 
 void listDifferences(const StereoCamera& camera, const Pose& T_camera_odom, const std::vector<Match>& matches,
-                     std::vector<PixelDifference>& differences) {
+                     const Eigen::Vector2d& known, std::vector<PixelDifference>& differences) {
   differences.clear();
   for (const Match& match : matches) {
     if (!isCompared(match)) continue;
@@ -22,7 +22,9 @@ void listDifferences(const StereoCamera& camera, const Pose& T_camera_odom, cons
     const double disparity = camera.left.fx * camera.baseline * match.p_odom.w() / p.z();
     PixelDifference difference;
     difference.px = match.left.pixel.x() - match.right.pixel.x() - camera.disparity_offset - disparity;
-    const double x = (match.left.pixel.x() - camera.left.cx) / camera.left.fx;
+    const double x = (match.left.pixel.x() - camera.left.cx) / camera.left.fx,
+                 y = (match.left.pixel.y() - camera.left.cy) / camera.left.fy;
+    difference.px += camera.left.fx * (y * known.y() + x * y * known.x());
     difference.slope = {1.0 + x * x, disparity * disparity / (camera.left.fx * camera.baseline)};
     difference.cell = fitCell(match.left.pixel, camera.left.width, camera.left.height);
     differences.push_back(difference);
@@ -32,10 +34,10 @@ void listDifferences(const StereoCamera& camera, const Pose& T_camera_odom, cons
 }  // namespace
 
 DisparityStep DisparityStepMeter::measure(const StereoCamera& camera, const Pose& T_camera_odom,
-                                          const std::vector<Match>& matches) {
+                                          const std::vector<Match>& matches, const Eigen::Vector2d& known) {
   differences_.reserve(matches.capacity());
   values_.reserve(matches.capacity());
-  listDifferences(camera, T_camera_odom, matches, differences_);
+  listDifferences(camera, T_camera_odom, matches, known, differences_);
   const RobustFit fit = fitRobustly(differences_, values_);
   if (!fit.found) return {};
   return {fit.value[0], std::sqrt(fit.covariance(0, 0)), fit.landmarks};

@@ -29,8 +29,11 @@ struct RowStep {
 /// Does not allocate once its buffers have grown.
 class DisparityStepMeter {
  public:
+  /// `known`: turns of the right camera about its x and z axes, whose displacements
+  ///   d += -fx (y turn_z + x y turn_x)
+  /// are removed first.
   DisparityStep measure(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom,
-                        const std::vector<Match>& matches);
+                        const std::vector<Match>& matches, const Eigen::Vector2d& known = Eigen::Vector2d::Zero());
   /// Measures the rows of the right image against those of the left one, less `row_offset_px`, which is usual:
   ///   v_right - v_left = fy ((1 + y^2) turn_x - x turn_z) + error.
   RowStep measureRows(const urban_nav_core::StereoCamera& camera, const std::vector<Match>& matches,

@@ -49,8 +49,8 @@ constexpr double kConstantShare = 0.2;
 constexpr int kLongestAverage = 30;
 constexpr double kLeastTwoEyed = 0.3;                 // share of the inliers
 constexpr int kMostMissed = 3, kMostMissedYoung = 1;  // frames
-// A turn of the right camera and two corrections of it. It has to lower the robust cost by the quantile 1e-6 of a
-// chi-square of one degree of freedom, three times over: landmarks share errors (docs/derivations/rig_constants.md).
+// A turn of the right camera and two corrections of it. It has to lower the robust cost by its dispersion times three
+// (landmarks share errors) times the quantile 1e-6 of a chi-square (docs/derivations/rig_constants.md).
 constexpr int kTurnAttempts = 3;
 constexpr double kTurnEvidence = 3.0 * 24.0;
 constexpr int kLongestAside = 50;  // frames after which a landmark has left the view
@@ -308,12 +308,7 @@ class FrontEnd::Implementation {
 
   /// Updates the search radius from the distances between inliers and their predictions.
   void learnRadius(const Pose& T_expected_odom) {
-    errors_.clear();
-    for (const Match& match : matches_) {
-      if (!match.inlier || !match.left.found) continue;
-      const auto expected = projectInto(Side::Left, camera_, T_expected_odom, match.p_odom);
-      if (expected) errors_.push_back((match.left.pixel - *expected).norm());
-    }
+    listPredictionErrors(camera_, T_expected_odom, matches_, errors_);
     radius_.learn(errors_);
   }
 
@@ -328,7 +323,8 @@ class FrontEnd::Implementation {
       dropMisfits(match);
       measure(match);
     }
-    if (coarse.found) result_.disparity_step = steps_.measure(camera_, coarse.T_camera_odom, matches_);
+    T_coarse_odom_ = coarse.T_camera_odom;
+    if (coarse.found) result_.disparity_step = steps_.measure(camera_, T_coarse_odom_, matches_);
     starts_.assign({coarse.found ? coarse.T_camera_odom : T_predicted_odom});
     PoseEstimatorOptions options;
     options.slack_px = astray_ ? kAstraySlackPx : kFineSlackPx;
@@ -362,8 +358,8 @@ class FrontEnd::Implementation {
     result_.reprojection_px = fine.reprojection_px;
   }
 
-  /// Locates the frame again with the right camera turned by what the disparity step asks for, as after a knock. The
-  /// turn is taken where the matches then fit better by more than chance; else all stays as it was.
+  /// Locates the frame again with the right camera turned as the steps suggest, as after a knock. The turn is taken if
+  /// the matches fit better by more than chance; otherwise everything is restored.
   void detectTurn(const StereoPair& pair, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
     std::optional<Eigen::Vector3d> turn = right_turn_.propose(measureSteps(), pair.stamp);
     for (int i = 0; turn && i < kTurnAttempts; ++i) {
@@ -371,15 +367,17 @@ class FrontEnd::Implementation {
       const double cost_before = robustCost(matches_);
       const std::vector<Match> matches = matches_;
       const FrontEndResult result = result_;
+      const SearchRadius radius = radius_;
       right_turn_.set(*turn);
       corners_.extract(right_turn_.correct(pair));
       locate(T_turned_odom, T_predicted_odom);
-      const double needed = i == 0 ? kTurnEvidence : 0.0;
-      if (!result_.localised || robustCost(matches_) > cost_before - needed) {
+      const double cost = robustCost(matches_), least = kTurnEvidence * costDispersion(cost, matches_.size());
+      if (!result_.localised || cost_before - cost < (i == 0 ? least : 0.0)) {
         right_turn_.set(turn_before);
         corners_.extract(right_turn_.correct(pair));
         matches_ = matches;
         result_ = result;
+        radius_ = radius;
         break;
       }
       turn = right_turn_.refine(measureSteps());
@@ -387,7 +385,13 @@ class FrontEnd::Implementation {
     result_.disparity_step = right_turn_.add(result_.disparity_step, pair.stamp);
   }
 
-  RigStep measureSteps() { return {result_.disparity_step, steps_.measureRows(camera_, matches_, rows_.px())}; }
+  /// Returns the steps of this frame. A turn that rows show is removed from the disparity step.
+  RigStep measureSteps() {
+    const RowStep rows = steps_.measureRows(camera_, matches_, rows_.px());
+    return {right_turn_.isLarge(rows) ? steps_.measure(camera_, T_coarse_odom_, matches_, rows.turn)
+                                      : result_.disparity_step,
+            rows};
+  }
 
   void measure(Match& match) {
     if (!subpixel_) roundToPixels(match);
@@ -395,18 +399,16 @@ class FrontEnd::Implementation {
   }
 
   void dropMisfits(Match& match) {
+    const PatchResidualTest& test = residual_test_[static_cast<std::size_t>(match.track->level)];
     for (PixelMeasurement* sighting : {&match.left, &match.right})
-      if (sighting->found && !residual_test_[static_cast<std::size_t>(match.track->level)].isTypical(sighting->noise))
-        *sighting = PixelMeasurement();
+      if (sighting->found && !test.isTypical(sighting->noise)) *sighting = PixelMeasurement();
   }
 
-  /// Returns whether most matches are in one image although the other one has texture: the two images are not a pair
-  /// (swapped, or of different times), and a motion that explains one of them is wrong. With a dark image, matches in
-  /// the other one are sufficient.
+  /// Returns whether most matches are in one image although the other one has texture (it may be dark): the images are
+  /// not a pair (swapped, or of different times), and a motion that explains one of them is wrong.
   bool isOneEyed(int inliers) const {
-    const int both = countInBoth(matches_);
     const int enough = static_cast<int>(matches_.size());
-    return both < kLeastTwoEyed * inliers && corners_.count(Side::Left) > enough &&
+    return countInBoth(matches_) < kLeastTwoEyed * inliers && corners_.count(Side::Left) > enough &&
            corners_.count(Side::Right) > enough;
   }
 
@@ -462,6 +464,7 @@ class FrontEnd::Implementation {
   int capacity_;
   PoseEstimator pose_estimator_;
   DisparityStepMeter steps_;
+  Pose T_coarse_odom_;  // of the present frame, from measurements in one image each
   SearchRadius radius_;
   Tracks tracks_;
   NoiseScale noise_;

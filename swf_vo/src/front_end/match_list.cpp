@@ -16,6 +16,7 @@ namespace {
 // soak of src/urban_nav/bench); with a correct pose at least 21 %, after a second without images from a car in a real
 // street (the recordings of bench/faults).
 constexpr double kLeastShareInView = 0.15;
+constexpr double kCoordinates = 3.0;   // of a match: two in the left image, the column in the right one
 constexpr double kOutlierChi2 = 11.3;  // quantile 0.99 of three degrees of freedom
 
 }  // namespace
@@ -26,6 +27,16 @@ int countInBoth(const std::vector<Match>& matches) {
   }));
 }
 
+void listPredictionErrors(const StereoCamera& camera, const Pose& T_expected_odom, const std::vector<Match>& matches,
+                          std::vector<double>& errors) {
+  errors.clear();
+  for (const Match& match : matches) {
+    if (!match.inlier || !match.left.found) continue;
+    const auto expected = projectInto(Side::Left, camera, T_expected_odom, match.p_odom);
+    if (expected) errors.push_back((match.left.pixel - *expected).norm());
+  }
+}
+
 double robustCost(const std::vector<Match>& matches) {
   double cost = 0.0;
   for (const Match& match : matches) {
@@ -33,6 +44,10 @@ double robustCost(const std::vector<Match>& matches) {
     cost += is_inlier ? std::min(match.chi2, kOutlierChi2) : kOutlierChi2;
   }
   return cost;
+}
+
+double costDispersion(double cost, std::size_t matches) {
+  return matches == 0 ? 1.0 : std::max(1.0, cost / (kCoordinates * static_cast<double>(matches)));
 }
 
 bool isInView(const StereoCamera& camera, const Pose& T_camera_odom, const Match& match) {

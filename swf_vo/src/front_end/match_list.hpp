@@ -13,9 +13,16 @@ namespace swf_vo {
 /// Returns the number of inliers that were found in both images.
 int countInBoth(const std::vector<Match>& matches);
 
+/// Lists the distances between inliers and their predictions in the left image, px.
+void listPredictionErrors(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_expected_odom,
+                          const std::vector<Match>& matches, std::vector<double>& errors);
+
 /// Returns the sum of the squared distances of all matches, each at most that of an outlier; landmarks that were not
 /// found in both images count as outliers.
 double robustCost(const std::vector<Match>& matches);
+/// Returns the ratio of a robust cost to that expected with the stated noise, at least 1: the variance factor by which
+/// differences of costs exceed those of a chi-square.
+double costDispersion(double cost, std::size_t matches);
 
 /// Returns whether a landmark lies within the left image.
 bool isInView(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_camera_odom,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "front_end/right_turn.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace swf_vo {
@@ -13,8 +14,11 @@ using urban_nav_core::StereoPair;
 
 namespace {
 
-// The step of one frame that is tested by itself, standard deviations; the images decide (FrontEnd).
-constexpr double kLargeStep = 6.0;
+// Steps of one frame that are tested by themselves, standard deviations; the images decide (FrontEnd). A knock enlarges
+// the scatter from which the standard deviation of its disparity step is computed, so at most the usual one of the
+// session is used.
+constexpr double kLargeStep = 3.0, kLargeRowStep = 6.0;
+constexpr double kUsualSteps = 64.0;  // frames over which standard deviations are averaged
 // As in the test of trust (docs/derivations/trust.md): the sum of n steps of neighbouring frames, which share
 // landmarks, has this many times the variance of independent ones; all landmarks of a frame share errors of this size;
 // an alarm is false once in so many hours of frames; until the landmarks are renewed steps are not independent of a
@@ -30,15 +34,6 @@ ConstantMeasurement toMeasurement(const DisparityStep& step, StampNs stamp) {
   return {{stamp, stamp}, step.px, std::sqrt(kSharedLandmarks) * std::hypot(step.sigma_px, kStepFloorPx)};
 }
 
-/// Returns whether rows show a turn about the x or z axis that is too large for noise.
-bool isLarge(const RowStep& rows, double fx) {
-  if (!(rows.sigma.minCoeff() > 0.0)) return false;
-  const double floor = kStepFloorPx / fx;
-  return (rows.turn.cwiseAbs().array() >
-          kLargeStep * (kSharedLandmarks * rows.sigma.array().square() + floor * floor).sqrt())
-      .any();
-}
-
 }  // namespace
 
 RightTurn::RightTurn(const urban_nav_core::StereoCamera& camera)
@@ -50,11 +45,21 @@ StereoPair RightTurn::correct(const StereoPair& pair) {
   return corrected;
 }
 
+bool RightTurn::isLarge(const RowStep& rows) const {
+  if (!(rows.sigma.minCoeff() > 0.0)) return false;
+  const double floor = kStepFloorPx / fx_;
+  return (rows.turn.cwiseAbs().array() >
+          kLargeRowStep * (kSharedLandmarks * rows.sigma.array().square() + floor * floor).sqrt())
+      .any();
+}
+
 std::optional<Vector3d> RightTurn::propose(const RigStep& step, StampNs stamp) const {
   if (!(step.disparity.sigma_px > 0.0) || usual_sigma_ < 0.0) return std::nullopt;
   const ConstantMeasurement measured = toMeasurement(step.disparity, stamp);
+  const double sigma =
+      toMeasurement({step.disparity.px, std::min(step.disparity.sigma_px, step_sigma_px_)}, stamp).sigma;
   const double excess = std::abs(measured.value - usual_px_);
-  if (excess > kLargeStep * std::hypot(measured.sigma, usual_sigma_) || isLarge(step.rows, fx_)) return refine(step);
+  if (excess > kLargeStep * std::hypot(sigma, usual_sigma_) || isLarge(step.rows)) return refine(step);
   if (!detector_.wouldAlarm(measured)) return std::nullopt;
   ChangeDetector detector = detector_;
   detector.add(measured);
@@ -68,7 +73,7 @@ std::optional<Vector3d> RightTurn::propose(const RigStep& step, StampNs stamp) c
 Vector3d RightTurn::refine(const RigStep& step) const {
   Vector3d proposed = turn();
   if (step.disparity.sigma_px > 0.0) proposed.y() += (step.disparity.px - usual_px_) / fx_;
-  if (isLarge(step.rows, fx_)) proposed += Vector3d(step.rows.turn.x(), 0.0, step.rows.turn.y());
+  if (isLarge(step.rows)) proposed += Vector3d(step.rows.turn.x(), 0.0, step.rows.turn.y());
   return proposed;
 }
 
@@ -85,6 +90,7 @@ DisparityStep RightTurn::add(const DisparityStep& step, StampNs stamp) {
     // Without an answer to an alarm the change is in the usual step from now on.
     if (detector_.add(toMeasurement(step, stamp)))
       detector_ = ChangeDetector(kFalseAlarm, kFramesPerHour, kRecentSteps);
+    step_sigma_px_ += (step.sigma_px - step_sigma_px_) / std::min(++step_sigmas_, kUsualSteps);
     if (detector_.measurements() > 0) {
       usual_px_ = detector_.mean();
       usual_sigma_ = detector_.meanSigma();
@@ -97,7 +103,7 @@ DisparityStep RightTurn::add(const DisparityStep& step, StampNs stamp) {
 
 void RightTurn::archive(urban_nav_core::Archive& archive) {
   Vector3d turn = right_.turn();
-  archive(turn, detector_, usual_px_, usual_sigma_, final_turn_, changed_px_, renewed_);
+  archive(turn, detector_, usual_px_, usual_sigma_, step_sigma_px_, step_sigmas_, final_turn_, changed_px_, renewed_);
   archive.require(turn.norm() < kLargestTurn, "the turn of the right camera is not plausible");
   right_.set(turn);
 }

@@ -33,6 +33,8 @@ class RightTurn {
   std::optional<Eigen::Vector3d> propose(const RigStep& step, urban_nav_core::StampNs stamp) const;
   /// Returns the turn that explains the steps of a frame whose turn is known roughly, rad.
   Eigen::Vector3d refine(const RigStep& step) const;
+  /// Returns whether rows show a turn about the x or z axis that is too large for noise.
+  bool isLarge(const RowStep& rows) const;
   /// Corrects by another turn from this frame on.
   void set(const Eigen::Vector3d& turn) { right_.set(turn); }
   const Eigen::Vector3d& turn() const { return right_.turn(); }
@@ -46,8 +48,9 @@ class RightTurn {
   double fx_;
   urban_nav_core::TurnedRightCamera right_;
   std::vector<std::uint8_t> pixels_;
-  urban_nav_core::ChangeDetector detector_;     // of the present mounting
-  double usual_px_ = 0.0, usual_sigma_ = -1.0;  // mean of the steps without a change; negative: none was measured
+  urban_nav_core::ChangeDetector detector_;         // of the present mounting
+  double usual_px_ = 0.0, usual_sigma_ = -1.0;      // mean of the steps without a change; negative: none was measured
+  double step_sigma_px_ = 0.0, step_sigmas_ = 0.0;  // recent mean of the standard deviations of steps; number of them
   Eigen::Vector3d final_turn_ = Eigen::Vector3d::Zero();  // of the frame before
   double changed_px_ = 0.0;              // increase of the disparity by the changes since the last renewal
   urban_nav_core::StampNs renewed_ = 0;  // from when on all landmarks are of the present mounting

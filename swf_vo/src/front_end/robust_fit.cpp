@@ -18,6 +18,7 @@ constexpr int kFitIterations = 8;
 constexpr double kFitHuber = 1.5;    // standard deviations
 constexpr double kFitOutlier = 6.0;  // standard deviations of the middle half
 constexpr double kLeastScatterPx = 0.02;
+constexpr double kSigmasOfMedian = 1.4826;  // standard deviation of a normal variable over its median magnitude
 
 /// Returns the median; the order of the values changes.
 double median(std::vector<double>& values) {
@@ -32,13 +33,20 @@ double removeOutliers(std::vector<PixelDifference>& differences, std::vector<dou
   for (const PixelDifference& difference : differences) values.push_back(difference.px);
   const double middle = median(values);
   for (double& value : values) value = std::abs(value - middle);
-  const double scatter = std::max(kLeastScatterPx, 1.4826 * median(values));
+  const double scatter = std::max(kLeastScatterPx, kSigmasOfMedian * median(values));
   differences.erase(std::remove_if(differences.begin(), differences.end(),
                                    [&](const PixelDifference& each) {
                                      return !(std::abs(each.px - middle) < kFitOutlier * scatter);
                                    }),
                     differences.end());
   return scatter;
+}
+
+/// Returns the scatter of the differences from the fit, px.
+double scatterAbout(const Vector2d& x, const std::vector<PixelDifference>& differences, std::vector<double>& values) {
+  values.clear();
+  for (const PixelDifference& each : differences) values.push_back(std::abs(each.px - each.slope.dot(x)));
+  return std::max(kLeastScatterPx, kSigmasOfMedian * median(values));
 }
 
 }  // namespace
@@ -52,7 +60,7 @@ std::size_t fitCell(const Vector2d& pixel, int width, int height) {
 RobustFit fitRobustly(std::vector<PixelDifference>& differences, std::vector<double>& scratch) {
   RobustFit fit;
   if (differences.size() < kLeastMatches) return fit;
-  const double scatter = removeOutliers(differences, scratch);
+  double scatter = removeOutliers(differences, scratch);
   if (differences.size() < kLeastMatches) return fit;
   Vector2d x = Vector2d::Zero();
   Matrix2d information = Matrix2d::Zero();
@@ -72,6 +80,7 @@ RobustFit fitRobustly(std::vector<PixelDifference>& differences, std::vector<dou
     const Vector2d next = information.inverse() * right;
     if (!next.allFinite()) return fit;
     x = next;
+    if (i + 1 < kFitIterations) scatter = scatterAbout(x, differences, scratch);
   }
   Matrix2d scatter_of_scores = Matrix2d::Zero();
   for (const Vector2d& score : scores) scatter_of_scores += score * score.transpose();

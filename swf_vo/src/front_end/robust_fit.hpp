@@ -28,9 +28,10 @@ struct RobustFit {
 };
 
 /// Fits px = slope . value by least squares with Huber's weights; differences further than six standard deviations from
-/// the median are left out, and removed from `differences`. The covariance is the larger of that of independent errors
-/// and that of a sandwich over cells of the image, whose landmarks share errors (Liang and Zeger 1986). Not found with
-/// fewer than 12 landmarks. `scratch`: keeps its capacity.
+/// the median are left out, and removed from `differences`. The standard deviation of the rest is that about the fit.
+/// The covariance is the larger of that of independent errors and that of a sandwich over cells of the image, whose
+/// landmarks share errors (Liang and Zeger 1986). Not found with fewer than 12 landmarks. `scratch`: keeps its
+/// capacity.
 RobustFit fitRobustly(std::vector<PixelDifference>& differences, std::vector<double>& scratch);
 
 }  // namespace swf_vo

@@ -76,6 +76,35 @@ TEST(DisparityStep, ItsErrorsAreAsLargeAsStated) {
   EXPECT_LT(squares / runs, 1.3);
 }
 
+TEST(DisparityStep, ARollThatIsKnownIsNoStep) {
+  constexpr double kRoll = 0.005;  // 0.8 px at the upper border
+  DisplacedView view(6, 80, -0.4, 0.0, kStepPlace);
+  const StereoCamera camera = stepCamera();
+  for (Match& match : view.matches)
+    match.right.pixel.x() += kRoll * (match.left.pixel.y() - camera.left.cy) * camera.left.fx / camera.left.fy;
+  DisparityStepMeter meter;
+  EXPECT_GT(std::abs(meter.measure(camera, kStepPlace, view.matches).px + 0.4), 1e-3);
+  EXPECT_NEAR(meter.measure(camera, kStepPlace, view.matches, {0.0, kRoll}).px, -0.4, 1e-9);
+}
+
+// A scatter about the common value would contain the displacement that the parameters explain.
+TEST(DisparityStep, TheStandardDeviationOfRowsIsThatAboutTheFit) {
+  DisplacedView still(7, 80, 0.0, 0.0, kStepPlace), rolled(7, 80, 0.0, 0.0, kStepPlace);
+  const StereoCamera camera = stepCamera();
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(0.0, 0.1);
+  for (std::size_t i = 0; i < still.matches.size(); ++i) {
+    const double error = normal(random);
+    still.matches[i].right.pixel.y() += error;
+    rolled.matches[i].right.pixel.y() += error - 0.01 * (rolled.matches[i].right.pixel.x() - camera.left.cx);
+  }
+  DisparityStepMeter meter;
+  const RowStep of_still = meter.measureRows(camera, still.matches, 0.0),
+                of_rolled = meter.measureRows(camera, rolled.matches, 0.0);
+  EXPECT_NEAR(of_rolled.turn.y() - of_still.turn.y(), 0.01, 2e-4);
+  EXPECT_NEAR(of_rolled.sigma.y(), of_still.sigma.y(), 0.2 * of_still.sigma.y());
+}
+
 TEST(DisparityStep, MatchesOfSomethingElseHaveNoPart) {
   DisplacedView view(4, 80, -0.3, 0.05, kStepPlace);
   for (std::size_t i = 0; i < 20; ++i) view.matches[4 * i].right.pixel.x() += 7.0 + static_cast<double>(i);
