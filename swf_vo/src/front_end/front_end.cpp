@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 #include "front_end/across.hpp"
 #include "front_end/corners.hpp"
@@ -49,8 +50,7 @@ constexpr double kConstantShare = 0.2;
 constexpr int kLongestAverage = 30;
 constexpr double kLeastTwoEyed = 0.3;                 // share of the inliers
 constexpr int kMostMissed = 3, kMostMissedYoung = 1;  // frames
-// A turn of the right camera and two corrections of it. It has to lower the robust cost by its dispersion times three
-// (landmarks share errors) times the quantile 1e-6 of a chi-square (docs/derivations/rig_constants.md).
+// A turn of the right camera has to lower the robust cost by this many dispersions (docs/derivations/rig_constants.md).
 constexpr int kTurnAttempts = 3;
 constexpr double kTurnEvidence = 3.0 * 24.0;
 constexpr int kLongestAside = 50;  // frames after which a landmark has left the view
@@ -223,9 +223,8 @@ class FrontEnd::Implementation {
     std::size_t next = 0;
     orphans_.clear();
     for (int i = 0; i < tracks_.size(); ++i) {
-      const LandmarkId id = tracks_.idAt(i);
-      while (next < matches_.size() && matches_[next].track->id < id) ++next;
-      if (next >= matches_.size() || matches_[next].track->id != id) orphans_.push_back(id);
+      while (next < matches_.size() && matches_[next].track->id < tracks_.idAt(i)) ++next;
+      if (next >= matches_.size() || matches_[next].track->id != tracks_.idAt(i)) orphans_.push_back(tracks_.idAt(i));
     }
     for (const LandmarkId id : orphans_) tracks_.end(id);
   }
@@ -255,8 +254,8 @@ class FrontEnd::Implementation {
     return pose_estimator_.locate(starts_, options, matches_);
   }
 
-  /// Matches at the previous position with the rotation between the images, as the camera may have stopped or turned
-  /// back. Keeps the previous result unless there are more inliers.
+  /// Matches at the previous position with the rotation between the images: the camera may have stopped or turned back.
+  /// Keeps the previous result unless there are more inliers.
   PoseEstimate matchAsIfStill(const PoseEstimate& moving, const Pose& T_turned_odom) {
     spare_ = matches_;
     const Pose T_still_odom(T_turned_odom.q(), -(T_turned_odom.q() * T_window_odom_.inverse().t()));
@@ -323,9 +322,9 @@ class FrontEnd::Implementation {
       dropMisfits(match);
       measure(match);
     }
-    T_coarse_odom_ = coarse.T_camera_odom;
+    T_coarse_odom_ = coarse.found ? coarse.T_camera_odom : T_predicted_odom;
     if (coarse.found) result_.disparity_step = steps_.measure(camera_, T_coarse_odom_, matches_);
-    starts_.assign({coarse.found ? coarse.T_camera_odom : T_predicted_odom});
+    starts_.assign({T_coarse_odom_});
     PoseEstimatorOptions options;
     options.slack_px = astray_ ? kAstraySlackPx : kFineSlackPx;
     options.least_inliers = parameters_.lost_features;
@@ -365,9 +364,7 @@ class FrontEnd::Implementation {
     for (int i = 0; turn && i < kTurnAttempts; ++i) {
       const Eigen::Vector3d turn_before = right_turn_.turn();
       const double cost_before = robustCost(matches_);
-      const std::vector<Match> matches = matches_;
-      const FrontEndResult result = result_;
-      const SearchRadius radius = radius_;
+      const auto before = std::make_tuple(matches_, result_, radius_, residual_test_);
       right_turn_.set(*turn);
       corners_.extract(right_turn_.correct(pair));
       locate(T_turned_odom, T_predicted_odom);
@@ -375,9 +372,7 @@ class FrontEnd::Implementation {
       if (!result_.localised || cost_before - cost < (i == 0 ? least : 0.0)) {
         right_turn_.set(turn_before);
         corners_.extract(right_turn_.correct(pair));
-        matches_ = matches;
-        result_ = result;
-        radius_ = radius;
+        std::tie(matches_, result_, radius_, residual_test_) = before;
         break;
       }
       turn = right_turn_.refine(measureSteps());
@@ -399,7 +394,7 @@ class FrontEnd::Implementation {
   }
 
   void dropMisfits(Match& match) {
-    const PatchResidualTest& test = residual_test_[static_cast<std::size_t>(match.track->level)];
+    PatchResidualTest& test = residual_test_[static_cast<std::size_t>(match.track->level)];
     for (PixelMeasurement* sighting : {&match.left, &match.right})
       if (sighting->found && !test.isTypical(sighting->noise)) *sighting = PixelMeasurement();
   }
