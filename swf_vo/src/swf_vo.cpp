@@ -7,6 +7,7 @@
 
 #include "ablation.hpp"
 #include "front_end/front_end.hpp"
+#include "front_end/right_turn.hpp"
 #include "health/corruption.hpp"
 #include "health/health.hpp"
 #include "health/image_check.hpp"
@@ -180,8 +181,8 @@ class SwfVo::Implementation {
 
     evidence.disparity_offset_px = started_ ? window_.disparityOffset() : 0.0;
     evidence.disparity_offset_sigma_px = started_ ? window_.disparityOffsetSigma() : 0.0;
-    if (health_.isUnexplained(evidence))
-      evidence.rows_disagree_px = rows_.measureSometimes(usable, seen != nullptr ? seen->row_offset_px : 0.0);
+    if (health_.isUnexplained(evidence)) checkRows(usable, seen != nullptr ? seen->row_offset_px : 0.0, evidence);
+    else if (evidence.image.usable) rows_.reset();
     const bool trusted = health_.isTrusted(evidence);
     const bool blurred = evidence.image.reason == Reason::Blurred;
     // Tracks may be recovered after blurred images: the window is not restarted.
@@ -241,6 +242,14 @@ class SwfVo::Implementation {
   }
 
  private:
+  /// Measures the rows of a pair that cannot be matched along them. A turn of the right camera that they show is
+  /// suggested for the next frame.
+  void checkRows(const StereoPair& pair, double row_offset_px, Evidence& evidence) {
+    RightTurn& right = front_end_.rightTurn();
+    evidence.rows_disagree_px = rows_.measureSometimes(right.correct(pair), row_offset_px);
+    right.suggest(rows_.matches(), row_offset_px);
+  }
+
   /// Prediction of a step, before the images of its end are processed.
   struct Predicted {
     ProcessInput u;                        // at constant velocity, or with the mean by sensors

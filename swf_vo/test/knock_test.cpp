@@ -84,6 +84,17 @@ TEST(Knock, IsCorrectedFromItsFrameOn) {
   }
 }
 
+// No point can be matched along rows then: one frame is lost, in which rows are searched widely.
+TEST(Knock, ALargePitchIsCorrectedAfterOneFrame) {
+  const double sound = KnockedDrive(Vector3d::Zero()).endError();
+  const Vector3d knock = Vector3d(2.0, 0.3, 0.0) * kDegrees;
+  const KnockedDrive drive(knock);
+  EXPECT_TRUE(drive.turns[kKnocked].isZero(0.0));
+  EXPECT_LT((drive.turns[kKnocked + 1] - knock).norm(), 0.05 * knock.norm());
+  EXPECT_EQ(drive.lost, 1);
+  EXPECT_LT(drive.endError(), sound + 0.02);
+}
+
 TEST(Knock, StaysInTheDisparityStepUntilLandmarksAreRenewed) {
   constexpr double kYaw = 0.3 * kDegrees;
   const KnockedDrive drive(Vector3d(0.0, kYaw, 0.0));

@@ -110,6 +110,8 @@ MapTrust assessMap(const std::vector<FrameTrust>& frames, const TestResults& res
     map.reason = "odometry is lost in more than half of the frames";
   } else if (!failed.empty()) {
     map.reason = failed;
+  } else if (const std::size_t lost = count(frames, TrustState::Lost); 10 * lost > frames.size()) {
+    map.reason = "odometry is lost in " + std::to_string(100 * lost / frames.size()) + " % of the frames";
   } else if (const std::string missing = missingSentence(confirm(results), results); !missing.empty()) {
     map.reason = missing;
   } else if (2 * count(frames, TrustState::Unsure) > frames.size()) {

@@ -103,6 +103,18 @@ TEST(Assessment, IsKnownWhereTestsPassAndOdometryIsNotLost) {
   EXPECT_TRUE(map.reason.empty());
 }
 
+TEST(Assessment, AMapOfWhichMoreThanATenthIsPredictedIsUnsure) {
+  TestResults results;
+  results.tests = bothPass();
+  for (const std::size_t lost : {10U, 11U}) {
+    auto evidence = drive();
+    for (std::size_t i = 0; i < lost; ++i) evidence[30 + i].is_lost = true;
+    const MapTrust map = assessMap(assessFrames(evidence, results, true, {}), results, {});
+    EXPECT_EQ(map.state, lost > 10 ? TrustState::Unsure : TrustState::Known) << lost;
+    EXPECT_EQ(map.reason.find("11 %") != std::string::npos, lost > 10) << map.reason;
+  }
+}
+
 TEST(Assessment, AFailureWhoseCauseWasCorrectedAffectsItsIntervalOnly) {
   TestResults results;
   results.tests = bothPass();

@@ -43,25 +43,37 @@ DisparityStep DisparityStepMeter::measure(const StereoCamera& camera, const Pose
   return {fit.value[0], std::sqrt(fit.covariance(0, 0)), fit.landmarks};
 }
 
+void DisparityStepMeter::addRows(const StereoCamera& camera, const RowMatch& match, double row_offset_px) {
+  const double f = camera.left.fy, x = (match.right.x() - camera.left.cx) / camera.left.fx,
+               y = (match.right.y() - camera.left.cy) / f;
+  PixelDifference difference;
+  difference.px = match.right.y() - match.left.y() - row_offset_px;
+  difference.slope = {f * (1.0 + y * y), -f * x};
+  difference.cell = fitCell(match.left, camera.left.width, camera.left.height);
+  differences_.push_back(difference);
+}
+
+RowStep DisparityStepMeter::fitRows() {
+  const RobustFit fit = fitRobustly(differences_, values_);
+  if (!fit.found) return {};
+  return {fit.value, fit.covariance.diagonal().cwiseSqrt()};
+}
+
 RowStep DisparityStepMeter::measureRows(const StereoCamera& camera, const std::vector<Match>& matches,
                                         double row_offset_px) {
   differences_.clear();
   differences_.reserve(matches.capacity());
   values_.reserve(matches.capacity());
-  const double f = camera.left.fy;
-  for (const Match& match : matches) {
-    if (!isCompared(match)) continue;
-    PixelDifference difference;
-    difference.px = match.right.pixel.y() - match.left.pixel.y() - row_offset_px;
-    const double x = (match.right.pixel.x() - camera.left.cx) / camera.left.fx,
-                 y = (match.right.pixel.y() - camera.left.cy) / f;
-    difference.slope = {f * (1.0 + y * y), -f * x};
-    difference.cell = fitCell(match.left.pixel, camera.left.width, camera.left.height);
-    differences_.push_back(difference);
-  }
-  const RobustFit fit = fitRobustly(differences_, values_);
-  if (!fit.found) return {};
-  return {fit.value, fit.covariance.diagonal().cwiseSqrt()};
+  for (const Match& match : matches)
+    if (isCompared(match)) addRows(camera, {match.left.pixel, match.right.pixel}, row_offset_px);
+  return fitRows();
+}
+
+RowStep DisparityStepMeter::measureRows(const StereoCamera& camera, const std::vector<RowMatch>& matches,
+                                        double row_offset_px) {
+  differences_.clear();
+  for (const RowMatch& match : matches) addRows(camera, match, row_offset_px);
+  return fitRows();
 }
 
 }  // namespace swf_vo

@@ -5,6 +5,7 @@
 
 #include "front_end/match.hpp"
 #include "front_end/robust_fit.hpp"
+#include "health/row_check.hpp"
 #include "swf_vo/frame.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
@@ -38,8 +39,13 @@ class DisparityStepMeter {
   ///   v_right - v_left = fy ((1 + y^2) turn_x - x turn_z) + error.
   RowStep measureRows(const urban_nav_core::StereoCamera& camera, const std::vector<Match>& matches,
                       double row_offset_px);
+  RowStep measureRows(const urban_nav_core::StereoCamera& camera, const std::vector<RowMatch>& matches,
+                      double row_offset_px);
 
  private:
+  void addRows(const urban_nav_core::StereoCamera& camera, const RowMatch& match, double row_offset_px);
+  RowStep fitRows();
+
   std::vector<PixelDifference> differences_;
   std::vector<double> values_;
 };

@@ -140,6 +140,7 @@ class FrontEnd::Implementation {
     return result_;
   }
 
+  RightTurn& rightTurn() { return right_turn_; }
   /// Archives the state used by the next frame; everything else is recomputed.
   void archive(urban_nav_core::Archive& archive) {
     archive(corners_, rotation_);
@@ -491,6 +492,7 @@ const FrontEndResult& FrontEnd::process(FrameId frame, const StereoPair& pair, c
   return implementation_->process(frame, pair, last, predicted, map, disparity_offset, quality, edges);
 }
 
+RightTurn& FrontEnd::rightTurn() { return implementation_->rightTurn(); }
 void FrontEnd::archive(urban_nav_core::Archive& archive) { implementation_->archive(archive); }
 
 }  // namespace swf_vo

@@ -14,6 +14,8 @@
 
 namespace swf_vo {
 
+class RightTurn;
+
 /// Result of the front end for one stereo pair (Newman et al. 2009, section 2.4).
 struct FrontEndResult {
   std::vector<Observation> tracked;  ///< tracked landmarks of the map, without outliers
@@ -63,6 +65,8 @@ class FrontEnd {
                                 const urban_nav_core::Pose& predicted, const std::vector<MapPoint>& map,
                                 double disparity_offset, const PredictionQuality& quality = {},
                                 const Edges& edges = Edges());
+  /// Returns the turn of the right camera, which may be corrected or suggested between frames.
+  RightTurn& rightTurn();
   void archive(urban_nav_core::Archive& archive);
 
  private:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace swf_vo {
 
@@ -37,7 +38,7 @@ ConstantMeasurement toMeasurement(const DisparityStep& step, StampNs stamp) {
 }  // namespace
 
 RightTurn::RightTurn(const urban_nav_core::StereoCamera& camera)
-    : fx_(camera.left.fx), right_(camera), detector_(kFalseAlarm, kFramesPerHour, kRecentSteps) {}
+    : camera_(camera), fx_(camera.left.fx), right_(camera), detector_(kFalseAlarm, kFramesPerHour, kRecentSteps) {}
 
 StereoPair RightTurn::correct(const StereoPair& pair) {
   StereoPair corrected = pair;
@@ -53,7 +54,15 @@ bool RightTurn::isLarge(const RowStep& rows) const {
       .any();
 }
 
-std::optional<Vector3d> RightTurn::propose(const RigStep& step, StampNs stamp) const {
+void RightTurn::suggest(const std::vector<RowMatch>& matches, double row_offset_px) {
+  if (usual_sigma_ < 0.0) return;
+  DisparityStepMeter meter;
+  const RowStep rows = meter.measureRows(camera_, matches, row_offset_px);
+  if (isLarge(rows)) suggested_ = turn() + Vector3d(rows.turn.x(), 0.0, rows.turn.y());
+}
+
+std::optional<Vector3d> RightTurn::propose(const RigStep& step, StampNs stamp) {
+  if (suggested_) return *std::exchange(suggested_, std::nullopt);
   if (!(step.disparity.sigma_px > 0.0) || usual_sigma_ < 0.0) return std::nullopt;
   const ConstantMeasurement measured = toMeasurement(step.disparity, stamp);
   const double sigma =
@@ -103,7 +112,8 @@ DisparityStep RightTurn::add(const DisparityStep& step, StampNs stamp) {
 
 void RightTurn::archive(urban_nav_core::Archive& archive) {
   Vector3d turn = right_.turn();
-  archive(turn, detector_, usual_px_, usual_sigma_, step_sigma_px_, step_sigmas_, final_turn_, changed_px_, renewed_);
+  archive(turn, detector_, usual_px_, usual_sigma_, suggested_, step_sigma_px_, step_sigmas_, final_turn_, changed_px_,
+          renewed_);
   archive.require(turn.norm() < kLargestTurn, "the turn of the right camera is not plausible");
   right_.set(turn);
 }

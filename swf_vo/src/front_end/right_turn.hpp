@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "front_end/disparity_step.hpp"
+#include "health/row_check.hpp"
 #include "swf_vo/frame.hpp"
 #include "urban_nav_core/camera/turned_right_camera.hpp"
 #include "urban_nav_core/io/archive.hpp"
@@ -28,9 +29,12 @@ class RightTurn {
 
   /// Returns the pair with its right image corrected. Views of it are valid until the next call.
   urban_nav_core::StereoPair correct(const urban_nav_core::StereoPair& pair);
-  /// Returns the turn of the right camera that explains the steps of a frame, rad: where one of them is too large for
-  /// noise, or where the disparity step ends a sum of steps (ChangeDetector) that is; else nullopt.
-  std::optional<Eigen::Vector3d> propose(const RigStep& step, urban_nav_core::StampNs stamp) const;
+  /// Suggests the turn that the rows of matching points in corrected images show, for the next frame. For a turn after
+  /// which hardly any point can be matched along rows. Without effect if no step was measured before the turn.
+  void suggest(const std::vector<RowMatch>& matches, double row_offset_px);
+  /// Returns the turn of the right camera that explains the steps of a frame, rad: the one suggested; or if one of the
+  /// steps is too large for noise, or the disparity step ends a sum of steps (ChangeDetector) that is; else nullopt.
+  std::optional<Eigen::Vector3d> propose(const RigStep& step, urban_nav_core::StampNs stamp);
   /// Returns the turn that explains the steps of a frame whose turn is known roughly, rad.
   Eigen::Vector3d refine(const RigStep& step) const;
   /// Returns whether rows show a turn about the x or z axis that is too large for noise.
@@ -45,6 +49,7 @@ class RightTurn {
   void archive(urban_nav_core::Archive& archive);
 
  private:
+  urban_nav_core::StereoCamera camera_;
   double fx_;
   urban_nav_core::TurnedRightCamera right_;
   std::vector<std::uint8_t> pixels_;
@@ -52,6 +57,7 @@ class RightTurn {
   double usual_px_ = 0.0, usual_sigma_ = -1.0;      // mean of the steps without a change; negative: none was measured
   double step_sigma_px_ = 0.0, step_sigmas_ = 0.0;  // recent mean of the standard deviations of steps; number of them
   Eigen::Vector3d final_turn_ = Eigen::Vector3d::Zero();  // of the frame before
+  std::optional<Eigen::Vector3d> suggested_;              // turn for the next frame
   double changed_px_ = 0.0;              // increase of the disparity by the changes since the last renewal
   urban_nav_core::StampNs renewed_ = 0;  // from when on all landmarks are of the present mounting
 };

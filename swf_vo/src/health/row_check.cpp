@@ -70,6 +70,7 @@ std::optional<double> RowCheck::measure(const urban_nav_core::StereoPair& pair, 
   }
   const int farthest = static_cast<int>(kFarthestDisparity * left.width);
   differences_.clear();
+  matches_.clear();
   for (std::size_t at = 0; at < strongest_.size(); ++at) {
     const int u = strongest_[at].u, v = strongest_[at].v;
     if (!filled[at] || !urban_nav_core::sadFits(left, u, v)) continue;
@@ -80,6 +81,7 @@ std::optional<double> RowCheck::measure(const urban_nav_core::StereoPair& pair, 
                               there.u + farthest, there.v);
     if (std::abs(back.u - u) > 1 || std::abs(back.v - v) > 1) continue;
     differences_.push_back(std::abs(there.v - v - row_offset_px));
+    matches_.push_back({Eigen::Vector2d(u, v), Eigen::Vector2d(there.u, there.v)});
   }
   if (differences_.size() < kEnoughToJudge) return std::nullopt;
   const auto middle = differences_.begin() + static_cast<std::ptrdiff_t>(differences_.size() / 2);
@@ -88,12 +90,18 @@ std::optional<double> RowCheck::measure(const urban_nav_core::StereoPair& pair, 
 }
 
 std::optional<double> RowCheck::measureSometimes(const urban_nav_core::StereoPair& pair, double row_offset_px) {
+  matches_.clear();
   if (pairs_until_next_ == 0) {
     last_ = measure(pair, row_offset_px);
     pairs_until_next_ = kPairsApart;
   }
   --pairs_until_next_;
   return last_;
+}
+
+void RowCheck::reset() {
+  pairs_until_next_ = 0;
+  last_.reset();
 }
 
 void RowCheck::archive(urban_nav_core::Archive& archive) { archive(pairs_until_next_, last_); }
