@@ -174,8 +174,8 @@ def creep(arguments):
             true = way_of(folder / "poses.txt")
             at = [int(np.argmax(true >= length)) for length in CREPT]
             for name, poses in systems:
-                told = way_of(poses)
-                rows.append([world, str(seed), name, *(f"{100 * (told[i] / true[i] - 1):+.1f} %" if true[i] >= length else "not reached"
+                estimated = way_of(poses)
+                rows.append([world, str(seed), name, *(f"{100 * (estimated[i] / true[i] - 1):+.1f} %" if true[i] >= length else "not reached"
                                                        for i, length in zip(at, CREPT)), str(at[-1])])
     columns = ("world", "seed", "system", *(f"after {100 * length:.0f} cm" for length in CREPT), "frames until then")
     return columns, rows, ["How much too far the left camera seems to be from where it began, once it is truly so far away. Route creep: at 2 cm/s."]

@@ -134,11 +134,11 @@ class MapSearch::Implementation {
   }
 
   /// Returns the keyframes nearest to a pose.
-  std::vector<std::size_t> near(const Pose& here, double most_way, double most_turn) const {
+  std::vector<std::size_t> near(const Pose& here, double most_path, double most_turn) const {
     std::vector<std::pair<double, std::size_t>> costs;
     for (std::size_t i = 0; i < views_.size(); ++i) {
       const double way = distanceBetween(views_[i].T_map_base, here), turn = angleBetween(views_[i].T_map_base, here);
-      if (way <= most_way && turn <= most_turn) costs.emplace_back(way + kMetresPerRadianOfView * turn, i);
+      if (way <= most_path && turn <= most_turn) costs.emplace_back(way + kMetresPerRadianOfView * turn, i);
     }
     std::sort(costs.begin(), costs.end());
     std::vector<std::size_t> nearest;

@@ -248,7 +248,7 @@ class Program {
     }
     if (pairs.empty()) return;
     Tally tally;
-    double largest_likeness = 0.0;
+    double largest_correlation = 0.0;
     int most_matches = 0;
     StereoMatcher matcher(recording.camera, parameters_);
     for (const auto& [i, j] : pairs) {
@@ -259,14 +259,15 @@ class Program {
       std::optional<Pose> T_a_b;
       if (accepted) T_a_b = closure.lefts.T_a_b;
       tally.see(T_a_b, nullptr, truth, processMs() - before);
-      if (closure.matches >= parameters_.min_matches) largest_likeness = std::max(largest_likeness, closure.likeness);
+      if (closure.matches >= parameters_.min_matches)
+        largest_correlation = std::max(largest_correlation, closure.likeness);
       most_matches = std::max(most_matches, closure.matches);
       if (options_.list && (accepted || closure.matches > 20)) list(name + " FALSE", i, j, truth, closure);
       if (accepted) draw(name + "_false", keyframes[i], keyframes[j], closure);
     }
     std::cout << name << ": of " << pairs.size() << " false pairs " << tally.upgraded.size()
               << " accepted; most matches " << most_matches << ", largest likeness of those with enough "
-              << cell(largest_likeness, 2) << "\n";
+              << cell(largest_correlation, 2) << "\n";
     addRow(table, name, "another place", tally, {}, {}, false);
   }
 
