@@ -102,7 +102,7 @@ int main(int argc, char** argv) try {
   BenchTable table({"calibration", "image noise (grey levels)", "motion", "runs", "NEES at 50", "at 100", "at 200",
                     "T_i,i+100 composed", "one step", "error at 200"},
                    argc, argv);
-  // By calibration and noise: for each motion, and for all.
+  // Grouped by calibration and noise, for each motion and for all.
   std::vector<std::array<Score, kMotions.size() + 1>> scores(2 * noises.size());
   for (int r = 0; r < runs; ++r) {
     const std::size_t motion = static_cast<std::size_t>(r) % kMotions.size();

@@ -15,7 +15,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-// Of a robot on wheels beside the path of the map: kerbs and slopes up to some ten degrees.
+// Deviations of a wheeled robot near the path of the map: kerbs, and slopes up to about ten degrees.
 constexpr double kHeightSigma = 1.0;  // m
 constexpr double kTiltSigma = 0.2;    // rad
 // The accuracy of a click on a map; a smaller variance, or none, was not set deliberately.

@@ -357,8 +357,8 @@ class FrontEnd::Implementation {
     result_.reprojection_px = fine.reprojection_px;
   }
 
-  /// Locates the frame again with the right camera turned as the steps suggest, as after a knock. The turn is taken if
-  /// the matches fit better by more than chance; otherwise everything is restored.
+  /// Estimates the pose again with the right image corrected by the turn that the steps imply, as after a knock. The
+  /// turn is accepted if matches then fit better by more than chance explains; otherwise everything is restored.
   void detectTurn(const StereoPair& pair, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
     std::optional<Eigen::Vector3d> turn = right_turn_.propose(measureSteps(), pair.stamp);
     for (int i = 0; turn && i < kTurnAttempts; ++i) {

@@ -43,7 +43,7 @@ std::string toBytes(const std::string& path) {
   return bytes.str();
 }
 
-/// A robot on its second day, which listens to what localisation says.
+/// Robot on a second day that subscribes to the topics of localization.
 class Visitor : public DrivingRobot {
  public:
   explicit Visitor(urban_nav_core::testing::RenderedSequence sequence)

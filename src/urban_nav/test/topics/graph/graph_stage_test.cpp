@@ -180,7 +180,7 @@ TEST(GraphRunTest, SessionsThatJoinEachOtherAloneAreOneMapOfTheirOwn) {
   EXPECT_EQ(urban_nav_input::testing::readFile(out.file("trajectory_3.tum")), "");
 }
 
-/// What an accelerometer feels on the circle at each frame.
+/// Adds the specific forces on the circle at each frame.
 void feel(SessionOdometry& run, const Pose& T_first_level) {
   constexpr double kTurnRate = 2.0 * M_PI / (600.0 * 0.05);
   const Pose first = truthAt(static_cast<double>(run.settled.front().stamp) / kStep);
@@ -209,7 +209,7 @@ struct TwoDays {
   }
 };
 
-// The robot's first pose leans by 0.1 rad to the side and 0.05 rad ahead.
+// The robot's first pose is tilted by 0.1 rad to the side and 0.05 rad ahead.
 const Pose kTilted(expSo3(Vector3d(0.1, 0.05, 0.0)), Vector3d::Zero());
 
 TEST(GraphRunTest, LevelsTheMapWhereAnAccelerometerKnowsHow) {
@@ -232,7 +232,7 @@ TEST(GraphRunTest, LevelsTheMapWhereAnAccelerometerKnowsHow) {
     EXPECT_EQ(after.covariances[s].back(), before.covariances[s].back()) << "they are of the axes of the first pose";
   }
 
-  // Where the first session has none, the next one of the same map says it.
+  // If the first session has no accelerometer, the next one of the same map determines gravity.
   days.monday.forces.clear();
   feel(days.tuesday, Pose());
   for (const bool gravity : {false, true}) {
@@ -243,7 +243,7 @@ TEST(GraphRunTest, LevelsTheMapWhereAnAccelerometerKnowsHow) {
 }
 
 TEST(GraphRunTest, HoldsRollAndPitchBySpecificForce) {
-  // Odometry that leans ever more to one side, by 0.05 rad in 45 s, from a start that leans; closures would see that.
+  // Odometry whose roll drifts by 0.05 rad in 45 s, from a tilted start; closures would correct that.
   TwoDays days;
   days.rows.clear();
   Pose odom;
