@@ -138,7 +138,8 @@ KindCalibration fitKind(const PlaceModel& model, const std::vector<PlaceSite>& s
                     "days that revisit places, and places more than 10 m apart");
   report.right += fitted.right;
   report.wrong += fitted.wrong;
-  report.priors.push_back({panoramas ? "panoramas alone" : "single images alone", fitted.alone_prior});
+  report.priors.push_back(
+      {panoramas ? "panoramas without sequence" : "single images without sequence", fitted.alone_prior});
   report.priors.push_back({panoramas ? "panoramas in sequence" : "single images in sequence", fitted.sequence_prior});
   return fitted;
 }

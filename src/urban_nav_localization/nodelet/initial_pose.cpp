@@ -38,7 +38,7 @@ urban_nav_core::PoseWithCovariance toInitialPose(const geometry_msgs::PoseWithCo
   const double scale = values ? std::max(1.0, covariance.cwiseAbs().maxCoeff()) : 1.0;
   if (!values || (*values)[0] < -1e-9 * scale ||
       (covariance - covariance.transpose()).cwiseAbs().maxCoeff() > 1e-9 * scale)
-    throw UserError(where, "the covariance is none", "finite, symmetric, no negative eigenvalue");
+    throw UserError(where, "the covariance is not valid", "finite, symmetric, no negative eigenvalue");
   if (covariance(2, 2) <= 0.0) {
     double nearest = std::numeric_limits<double>::infinity(), height = pose->t().z();
     for (const urban_nav_store::StoredTrajectory& session : map)

@@ -121,7 +121,7 @@ void SimulatorNodelet::advertiseServices() {
     services_.push_back(getPrivateNodeHandle().advertiseService(name, callback));
   };
   advertise("reset", "the session begins again", [this] { orders_.reset(); });
-  advertise("pause", "time stands until resume", [this] { orders_.pause(true); });
+  advertise("pause", "time stops until resume", [this] { orders_.pause(true); });
   advertise("resume", "the session continues", [this] { orders_.pause(false); });
 }
 

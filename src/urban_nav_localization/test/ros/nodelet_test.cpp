@@ -203,7 +203,7 @@ TEST_F(LocalizationNodelet, AnInitialPoseIsNeitherNeededNorAcceptedAgainstMatche
   ASSERT_TRUE(DrivingRobot::until([&] { return robot.isConnected(); }));
   const Pose wrong = T_map_world() * robot.T_world_base(kLap / 2);
   robot.applyInitialPose(wrong, "odom");
-  ASSERT_TRUE(DrivingRobot::until([&] { return robot.diagnosed("initial poses refused", "1"); }));
+  ASSERT_TRUE(DrivingRobot::until([&] { return robot.diagnosed("initial poses rejected", "1"); }));
   robot.applyInitialPose(wrong);
   ASSERT_TRUE(DrivingRobot::until([&] { return robot.diagnosed("initial poses taken", "1"); }));
   robot.drive(0, 2, false);

@@ -205,7 +205,7 @@ class MessageIterator {
 }  // namespace
 
 PYBIND11_MODULE(_input, module) {
-  module.doc() = "Reads recordings; urban_nav.Recording is what users see.";
+  module.doc() = "Reads recordings; the public class is urban_nav.Recording.";
   registerErrors();
   py::class_<MessageIterator>(module, "MessageIterator")
       .def("__iter__", [](py::object self) { return self; })

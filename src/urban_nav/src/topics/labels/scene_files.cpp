@@ -40,7 +40,7 @@ SceneFiles filesOfScene(const std::filesystem::path& points, const std::string& 
   if (files.image.empty()) return files;
   files.projection = (points.parent_path() / "projection.txt").string();
   if (!std::filesystem::is_regular_file(files.projection))
-    throw UserError(files.projection, "does not exist", "a 3x4 matrix beside " + files.image);
+    throw UserError(files.projection, "does not exist", "a 3x4 matrix in the folder of " + files.image);
   return files;
 }
 
