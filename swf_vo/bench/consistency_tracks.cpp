@@ -135,6 +135,6 @@ int main(int argc, char** argv) {
   table.note(
       "Mean normalised squared errors over " + std::to_string(runs) +
       " runs of 421 frames; a consistent filter has 6, and 99 % of means of 50 lie in 4.81...7.34. Steps: T_{i,i+n} by "
-      "its drift and its two ends; last column: composed of relative_covariance as if neighbours were independent.");
+      "its drift and its two ends; last column: relative_covariance composed as if neighbours were independent.");
   if (!output.empty()) table.write(output);
 }

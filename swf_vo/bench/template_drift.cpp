@@ -269,8 +269,8 @@ int main(int argc, char** argv) try {
   for (const auto& [name, pool] : pools)
     for (std::size_t g = 0; g < kGaps.size(); ++g) addRow(name, landmarks[name], kGaps[g], pool[g], table);
   table.note(
-      "Landmarks seen in 19 frames and more. How far they have moved from one mean of five frames to another, rms; "
-      "quarters by the standard deviation of their alignment; 1 is right.");
+      "Landmarks observed in at least 19 frames. Displacement between means over five frames, rms; quarters by the "
+      "standard deviation of their alignment; 1 is expected.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return complain(error);

@@ -243,8 +243,8 @@ def main():
     bench.write_claims()
     if len(arguments.kind or KINDS) > 1:
         bench.rows.append(summary(("all", "", "+ second look"), [claim for _, _, claim in bench.claims]))
-    show(COLUMNS, bench.rows, ["Right within 7.5 m, wrong beyond 10 m, between not counted; of strangers every match is wrong. All: without the rows in the first day alone. Real images: within 3 images, beyond 20. "
-                               "Otherwise mask and parameters as they are by default."], measured, arguments.output)
+    show(COLUMNS, bench.rows, ["Right within 7.5 m, wrong beyond 10 m, distances between are not counted; every match of strangers is wrong. All: without the rows in the first day alone. Real images: within 3 images, beyond 20. "
+                               "Otherwise default mask and parameters."], measured, arguments.output)
 
 
 if __name__ == "__main__":

@@ -209,8 +209,8 @@ int main(int argc, char** argv) try {
                    argc, argv);
   table.note(
       "Pairs up to 7.5 m apart of one day or two, without a guess; another place: more than 10 m apart, all that are "
-      "accepted. Wrong: off by more than half a metre or 3 deg. NEES: 6 is right, 5.3 its median. Time: one core, from "
-      "the points of both clouds to the verdict, the search among all headings with it.");
+      "accepted. Wrong: off by more than half a metre or 3 deg. NEES: 6 is expected, with a median of 5.3. Time: one "
+      "core, from the points of both clouds to the verdict, with the search over all headings.");
   Program program(options);
   for (const std::string& folder : options.folders) program.run(folder, table);
   std::cout << table.text();

@@ -285,9 +285,9 @@ int main(int argc, char** argv) try {
                    argc, argv);
   table.note(
       "Wrong: off by more than half a metre or 3 deg; of pairs of different places, all that are accepted. NEES: 6 is "
-      "right, 5.3 its median. Time: one core, both keyframes from their images, and what leads from them to the "
-      "verdict. OpenCV on every third pair: 500 features, ratio test, depth by StereoSGBM, solvePnPRansac and "
-      "solvePnPRefineLM, 50 inliers wanted.");
+      "expected, with a median of 5.3. Time: one core, from the images of both keyframes to the verdict. OpenCV on "
+      "every third pair: 500 features, ratio test, depth by StereoSGBM, solvePnPRansac and solvePnPRefineLM, 50 "
+      "inliers required.");
   Program program(options);
   for (const std::string& folder : options.folders) program.run(folder, table);
   std::cout << table.text();
