@@ -118,13 +118,13 @@ int main(int argc, char** argv) {
     addRows(words[i], dense_stereo::bench::simulatedPairs(words[i], words[i + 1], words[i + 2], arguments.step),
             arguments.own, table);
   table.note(
-      "Pixels that both cameras see; teddy and cones 64 disparities, wood2 128; simulated worlds 64, nearer than 47 "
+      "Pixels visible in both cameras; teddy and cones 64 disparities, wood2 128; simulated worlds 64, nearer than 47 "
       "m.");
   table.note(
-      "Sky: pixels without a surface that are given 2 px or more. Error / sigma: of errors below 1 px. With the step "
-      "of the truth: the truth of teddy and cones is in steps of 1/4 px, that of wood2 of 1/2 px; step^2 / 12 is added "
-      "to the variance. Wrong in the surer half: of those wrong by over 1 px, the share with the smaller half of the "
-      "deviations.");
+      "Sky: pixels without a surface that get a disparity of 2 px or more. Error / sigma: of errors below 1 px. With "
+      "the step of the truth: the truth of teddy and cones is in steps of 1/4 px, that of wood2 of 1/2 px; step^2 / 12 "
+      "is added to the variance. Wrong in the surer half: share of the pixels wrong by over 1 px that have the smaller "
+      "half of the standard deviations.");
   table.note(
       "StereoBM 11x11; StereoSGBM block 3, P1 72, P2 288, uniqueness 10, speckles 100 px (OpenCV's defaults "
       "otherwise).");

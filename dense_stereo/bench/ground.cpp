@@ -74,8 +74,8 @@ int main(int argc, char** argv) {
   }
   table.note(
       "True plane: least squares through the true ground within 5 m. Obstacles: connected surfaces 10 cm or more above "
-      "it, 1 to 5 m ahead, that both cameras see with 60 pixels or more. False: connected obstacle points with nothing "
-      "over 5 cm within 25 cm.");
+      "it, 1 to 5 m ahead, visible in both cameras with 60 pixels or more. False: connected obstacle points with "
+      "nothing over 5 cm within 25 cm.");
   std::fputs(table.text().c_str(), stdout);
   if (!arguments.output.empty()) table.write(arguments.output);
   return 0;

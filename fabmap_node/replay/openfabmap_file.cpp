@@ -30,7 +30,7 @@ struct NamedMatrix {
 NamedMatrix readMatrix(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) throw UserError(path, "no such file", kMatrixFile);
   try {
-    // Unpacked here: OpenCV would unpack whatever a file of some kilobytes holds.
+    // readUnpacked() limits the decompressed size; OpenCV does not.
     const cv::FileStorage storage(urban_nav_core::readUnpacked(path), cv::FileStorage::READ | cv::FileStorage::MEMORY);
     if (storage.isOpened())
       for (const auto& entry : storage.root()) {

@@ -127,11 +127,11 @@ class SimulatorLaunch(LaunchCase):
         self.assertNotIn("/tf", published(), "a robot does not know where it truly is")
 
     def test_rviz_is_told_the_truth_by_nothing_but_the_absence_of_odometry(self):
-        for vo, name, told in (("true", "urban_nav", False), ("false", "simulator", True)):
+        for vo, name, uses_truth in (("true", "urban_nav", False), ("false", "simulator", True)):
             asked = ["roslaunch", "--args", "/rviz", "urban_nav_launch", "simulator.launch", "rviz:=true", f"vo:={vo}"]
             words = subprocess.run(asked, check=True, capture_output=True, text=True).stdout.split()
             self.assertIn(str(rviz_file(name)), words)
-            self.assertEqual("/tf:=/ground_truth/tf" in words, told, words)
+            self.assertEqual("/tf:=/ground_truth/tf" in words, uses_truth, words)
 
     def test_ends_with_the_session_if_told_to(self):
         self.launch("simulator.launch", sensors="wheels,gps", duration=2, exit="true", rate=0, vo="false")

@@ -185,9 +185,9 @@ def main():
             judged = candidates_of(bags, rows, true, out)
             kinds += kinds_of(label, way, judged, accepted_of(bags, out))
             maps.append(map_of(label, way, bags, judged, out, arguments.folder))
-    notes = [f"{arguments.false:.0f} % as many false candidates as true ones, seed {arguments.seed}. Wrong: off by more than {WRONG_M} m or {WRONG_DEG:.0f} deg along what the closure holds; errors likewise. NEES: 6 is right, 5.3 its median."]
+    notes = [f"{arguments.false:.0f} % as many false candidates as true ones, seed {arguments.seed}. Wrong: off by more than {WRONG_M} m or {WRONG_DEG:.0f} deg along the directions that the closure measures; errors are along these too. NEES: 6 is expected, with a median of 5.3."]
     show(KINDS, kinds, notes, measured, arguments.kinds)
-    show(MAPS, maps, ["Between days: how much further apart or nearer the map puts two days than the truth, where both were. NEES: 6 is right."], measured, arguments.maps)
+    show(MAPS, maps, ["Between days: distance of two days in the map less that in the truth, at places of both. NEES: 6 is expected."], measured, arguments.maps)
 
 
 if __name__ == "__main__":

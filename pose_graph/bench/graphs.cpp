@@ -96,7 +96,7 @@ std::string versions(const CsvTable& peers) {
     const std::string each = peers.text(row, peers.column("peer")) + " " + peers.text(row, peers.column("version"));
     if (std::find(named.begin(), named.end(), each) == named.end()) named.push_back(each);
   }
-  std::string text = "Peers, each with the options that served it best:";
+  std::string text = "Peers, each with its best options:";
   for (const std::string& each : named) text += (each == named.front() ? " " : "; ") + each;
   return text + ".";
 }

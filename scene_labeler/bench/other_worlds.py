@@ -19,11 +19,11 @@ def main():
         scored = simulated.scored_classes(result)
         f1 = {name: simulated.f1_of(rows, names.index(name)) for name in scored}
         known_rows = [k for k in range(len(rows)) if names[k] in known]
-        returns, told = sum(sum(rows[k]) for k in known_rows), sum(sum(sure[k]) for k in known_rows)
+        returns, sure_returns = sum(sum(rows[k]) for k in known_rows), sum(sum(sure[k]) for k in known_rows)
         right = sum(sure[k][k] for k in known_rows)
         fresh = result["new_place_frames"] / result["frames"]
         print(f"| {world} | {100 * fresh:.0f} | {sum(f1.values()) / len(f1):.0f} | " + ", ".join(f"{name} {value:.0f}" for name, value in f1.items())
-              + f" | {100 * told / returns:.0f} | {100 * right / max(1, told):.0f} | {100 * (told - right) / returns:.0f} |", flush=True)
+              + f" | {100 * sure_returns / returns:.0f} | {100 * right / max(1, sure_returns):.0f} | {100 * (sure_returns - right) / returns:.0f} |", flush=True)
 
 
 if __name__ == "__main__":

@@ -48,9 +48,9 @@ def try_default(command, work, sets):
     """Evaluates the default model, which is not trained on these data sets."""
     print("\n| set | paved, precision and recall, % | walls found, % | not unsure, % | of these right, % | calibration error |\n|---|---|---|---|---|---|")
     for name in sets:
-        told = work / "default.json"
-        run(command, "labels", "evaluate", "default", work / name / "validation", "--classes", work / name / "classes.csv", "--json", told)
-        said = json.loads(told.read_text())
+        result_file = work / "default.json"
+        run(command, "labels", "evaluate", "default", work / name / "validation", "--classes", work / name / "classes.csv", "--json", result_file)
+        said = json.loads(result_file.read_text())
         rows = said["sure_confusion"]["rows"]
         sure = sum(map(sum, rows))
         right = sum(row[k] for k, row in enumerate(rows))
@@ -77,12 +77,12 @@ def main():
                 "id,class\n" + "".join(f"{k},{v}\n" for k, v in sorted(classes.items())))
         for kind, features in (("boosted", "all"), ("boosted", "paper"), ("forest", "all"), ("svm", "all")):
             for name, (_, _, _, scored) in sets.items():
-                model, told, table = work / "model", work / "told.json", work / name / "classes.csv"
+                model, result_file, table = work / "model", work / "told.json", work / name / "classes.csv"
                 seconds = run(command, "labels", "train", work / name / "train", "-o", model, "--classes", table, "--classifier",
-                              kind, "--features", features, "--json", told)
-                labelling = run(command, "labels", "evaluate", model, work / name / "validation", "--classes", table, "--json", told,
+                              kind, "--features", features, "--json", result_file)
+                labelling = run(command, "labels", "evaluate", model, work / name / "validation", "--classes", table, "--json", result_file,
                                 "--threads", 1)
-                said = json.loads(told.read_text())
+                said = json.loads(result_file.read_text())
                 f1 = {c: said["classes"][c]["f1"] for c in scored}
                 print(f"| {name} | {kind} | {features} | {said['accuracy']:.3f} | {sum(f1.values()) / len(f1):.3f} | "
                       + ", ".join(f"{c} {100 * v:.0f}" for c, v in f1.items())

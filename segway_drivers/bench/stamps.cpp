@@ -91,8 +91,8 @@ int main(int argc, char** argv) {
                  cell(100.0 * static_cast<double>(errors.within) / static_cast<double>(errors.judged), 1)});
     }
   table.note("Largest of " + std::to_string(trials) +
-             " trials of 240 s each, skew +100 or -100 ppm; sessions whose "
-             "delays are longer up to 40 s are judged from 45 s on, since before that nothing tells.");
+             " trials of 240 s each, skew +100 or -100 ppm; sessions whose delays are longer up to 40 s are assessed "
+             "from 45 s on, since the longer delay is not observable before.");
   std::fputs(table.text().c_str(), stdout);
   if (!output.empty()) table.write(output);
   return 0;

@@ -50,7 +50,7 @@ class SegwayRmpNodelet : public DriverNodelet {
           stop_wish_ = request.data != 0;
           response.success = true;
           response.message =
-              request.data != 0 ? "the base is commanded to stand until the stop is released" : "the stop is released";
+              request.data != 0 ? "the base stays stopped until the stop is released" : "the stop is released";
           return true;
         });
     return driver;

@@ -102,7 +102,7 @@ int main(int argc, char** argv) try {
   BenchTable table({"calibration", "image noise (grey levels)", "motion", "runs", "NEES at 50", "at 100", "at 200",
                     "T_i,i+100 composed", "one step", "error at 200"},
                    argc, argv);
-  // By calibration and noise: for each motion, and for all.
+  // Grouped by calibration and noise, for each motion and for all.
   std::vector<std::array<Score, kMotions.size() + 1>> scores(2 * noises.size());
   for (int r = 0; r < runs; ++r) {
     const std::size_t motion = static_cast<std::size_t>(r) % kMotions.size();
@@ -136,11 +136,11 @@ int main(int argc, char** argv) try {
                  cell(1000.0 * s.error_m / s.runs, 1) + " mm, " + cell(s.error_deg / s.runs, 3) + " deg"});
     }
   table.note(
-      "Calibration drawn: disparities are off by what was drawn for the run from the standard deviation that the "
-      "filter assumes (disparity_offset). Its error is the same in all steps, so the drift of steps does not have it.");
+      "Calibration drawn: the disparities of a run have a random offset with the standard deviation that the filter "
+      "assumes (disparity_offset). It is the same in all steps, so that the drift of steps does not contain it.");
   table.note(
-      "NEES: 6 is right; of a mean over 50 runs, 99 % lie between 4.81 and 7.34. In brackets translation and rotation, "
-      "3 each.");
+      "NEES: 6 is expected; of a mean over 50 runs, 99 % lie between 4.81 and 7.34. In brackets translation and "
+      "rotation, 3 each.");
   return show(table, output);
 } catch (const std::exception& error) {
   return complain(error);

@@ -193,7 +193,7 @@ int main(int argc, char** argv) {
   plot << "</svg>\n";
   table.note(
       "Mean over " + std::to_string(runs) + " runs of " + std::to_string(frames) +
-      " steps; map: landmarks within 6 m that the newest frame sees. Deletion keeps one pose more, as the datum.");
+      " steps; map: landmarks within 6 m that the newest frame observes. Deletion keeps one more pose, as the datum.");
   std::fputs(table.text().c_str(), stdout);
   if (!path.empty()) table.write(path);
 }

@@ -140,9 +140,9 @@ int main(int argc, char** argv) try {
     for (const std::size_t part : {0U, 1U})
       for (std::size_t c = 0; c < covariances.size(); ++c) table.add(row(name, pool[c], covariances[c], part));
   table.note(
-      "Squared errors over the variances stated; 1 is right. In brackets the errors, rms. Model: "
-      "robust_covariance=false. What is not known of the disparity offset and of the scale of the rig is the same "
-      "error in all steps and not in their drifts; with both: as in the covariance of a pose.");
+      "Squared errors over the stated variances; 1 is expected. In brackets the errors, rms. Model: "
+      "robust_covariance=false. The errors of the disparity offset and of the scale of the rig are the same in all "
+      "steps and not contained in their drifts; with both: included, as in the covariance of a pose.");
   return show(table, output);
 } catch (const std::exception& error) {
   return complain(error);

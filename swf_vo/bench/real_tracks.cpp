@@ -326,8 +326,8 @@ int main(int argc, char** argv) try {
   kitti07.camera.baseline = 0.537151;
   for (const int size : {1, 10, 25}) kitti("kitti07_tracks_ucsd", kitti07, 0, 1100, size, table);
   table.note(
-      "kitti00_tracks: the first 14 poses of its truth are rough (its README). kitti07_tracks_ucsd: in 91 frames all "
-      "tracks repeat the frame before; they end there, and no track sees that step.");
+      "kitti00_tracks: the first 14 poses of its truth are inaccurate (its README). kitti07_tracks_ucsd: in 91 frames "
+      "all tracks repeat the frame before; they end there, and no track spans that step.");
   return swf_vo::bench::show(table, output);
 } catch (const std::exception& error) {
   return swf_vo::bench::complain(error);

@@ -83,7 +83,7 @@ std::vector<double> turned(const std::string& imu, const std::vector<StampNs>& s
   return angles;
 }
 
-void add(BenchTable& table, const char* who, const std::vector<Pose>& poses, const std::vector<double>& gyroscope) {
+void add(BenchTable& table, const char* label, const std::vector<Pose>& poses, const std::vector<double>& gyroscope) {
   double most = 0.0, apart = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const double angle = angleBetween(poses.front(), poses[i]) / kDeg;
@@ -91,7 +91,7 @@ void add(BenchTable& table, const char* who, const std::vector<Pose>& poses, con
     apart = std::max(apart, std::abs(angle - gyroscope[i]));
     squares += std::pow(distanceBetween(poses.front(), poses[i]), 2);
   }
-  table.add({who, cell(1000.0 * std::sqrt(squares / static_cast<double>(poses.size())), 2), cell(most, 3),
+  table.add({label, cell(1000.0 * std::sqrt(squares / static_cast<double>(poses.size())), 2), cell(most, 3),
              cell(angleBetween(poses.front(), poses.back()) / kDeg, 3), cell(apart, 3)});
 }
 

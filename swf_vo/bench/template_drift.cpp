@@ -41,7 +41,7 @@ constexpr int kFittingSteps = 6;
 constexpr double kUsualResidual = 3.0;  // standard deviations; Huber
 
 /// A measurement of a landmark at a true pose.
-struct Sighting {
+struct PatchObservation {
   std::size_t frame = 0;
   Pose T_camera_odom;
   Vector3d z, sigma;        ///< u_left, v and disparity, px
@@ -54,7 +54,7 @@ struct Life {
   Pose T_odom_birth;
   Vector3d place;
   Matrix3d covariance;
-  std::vector<Sighting> seen;
+  std::vector<PatchObservation> seen;
 };
 
 /// u_left, v and disparity of a landmark; homogeneous, so that far ones need no special case.
@@ -154,7 +154,7 @@ class Follower {
     life.place += gain * (z - predict(camera, life.T_odom_birth, life.place, T_camera_odom));
     life.place.z() = std::max(life.place.z(), 1e-6);
     life.covariance = ((Matrix3d::Identity() - gain * J) * life.covariance).eval();
-    const Sighting& last = life.seen.back();
+    const PatchObservation& last = life.seen.back();
     life.seen.push_back(
         {frame, T_camera_odom, z, sigma, seen.sigma_px, last.drift_u + drift(0, 0), last.drift_v + drift(1, 1)});
   }
@@ -177,7 +177,7 @@ std::vector<Vector3d> residualsAtBestPlace(const StereoCamera& camera, Life& lif
   for (int step = 0; step < kFittingSteps; ++step) {
     Matrix3d H = Matrix3d::Zero();
     Vector3d b = Vector3d::Zero();
-    for (const Sighting& seen : life.seen) {
+    for (const PatchObservation& seen : life.seen) {
       const Matrix3d J = jacobian(camera, life, seen.T_camera_odom);
       const Vector3d r = seen.z - predict(camera, life.T_odom_birth, life.place, seen.T_camera_odom);
       const double huber = std::min(1.0, kUsualResidual / r.cwiseQuotient(seen.sigma).norm());
@@ -189,7 +189,7 @@ std::vector<Vector3d> residualsAtBestPlace(const StereoCamera& camera, Life& lif
   }
   std::vector<Vector3d> residuals;
   if (!life.place.allFinite() || !(life.place.z() > 1.0 / kFarthest)) return residuals;
-  for (const Sighting& seen : life.seen)
+  for (const PatchObservation& seen : life.seen)
     residuals.push_back(seen.z - predict(camera, life.T_odom_birth, life.place, seen.T_camera_odom));
   return residuals;
 }
@@ -215,7 +215,7 @@ void add(const std::vector<Vector3d>& residuals, const Life& life, std::size_t g
         scatter += (residuals[k] - mean[side]).cwiseAbs2() / (kCount * (kCount - 1.0));
     }
     const Vector3d squared = (mean[1] - mean[0]).cwiseAbs2();
-    const Sighting &from = life.seen[i], &to = life.seen[j];
+    const PatchObservation &from = life.seen[i], &to = life.seen[j];
     moved.push_back({squared - scatter, std::max(squared[0], squared[1]),
                      0.5 * (to.drift_u - from.drift_u + to.drift_v - from.drift_v), to.sigma_px});
   }
@@ -269,8 +269,8 @@ int main(int argc, char** argv) try {
   for (const auto& [name, pool] : pools)
     for (std::size_t g = 0; g < kGaps.size(); ++g) addRow(name, landmarks[name], kGaps[g], pool[g], table);
   table.note(
-      "Landmarks seen in 19 frames and more. How far they have moved from one mean of five frames to another, rms; "
-      "quarters by the standard deviation of their alignment; 1 is right.");
+      "Landmarks observed in at least 19 frames. Displacement between means over five frames, rms; quarters by the "
+      "standard deviation of their alignment; 1 is expected.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return complain(error);

@@ -74,7 +74,7 @@ int main(int argc, char** argv) try {
         for (std::size_t l = 0; l < kLags.size(); ++l) row.push_back(describe(pool[w][l], pool[kUsual][l], part));
         table.add(row);
       }
-  table.note("Standard deviations stated, over those with a window of 10. In brackets the errors, rms.");
+  table.note("Stated standard deviations, over those with a window of 10. In brackets the errors, rms.");
   return show(table, asked.output);
 } catch (const std::exception& error) {
   return complain(error);

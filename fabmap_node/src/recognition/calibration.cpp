@@ -10,9 +10,9 @@
 namespace fabmap_node {
 namespace {
 
-constexpr double kAlike = 20.0;  // number of similar consecutive samples that count as one: 10 m of panoramas at 2 Hz
-                                 // and 1 m/s
-constexpr double kConstantDeviation = 1e-9;  // for evidence that is constant over all samples
+constexpr double kSimilarConsecutive = 20.0;  // number of similar consecutive samples that count as one: 10 m of
+                                              // panoramas at 2 Hz and 1 m/s
+constexpr double kConstantDeviation = 1e-9;   // for evidence that is constant over all samples
 constexpr auto kEvidenceSize = static_cast<Eigen::Index>(PlaceEvidence::kSize);
 
 std::size_t countRight(const std::vector<CalibrationSample>& samples) {
@@ -70,7 +70,8 @@ PlaceCalibration fitCalibration(const std::vector<CalibrationSample>& samples, d
   LogisticSamples logistic_samples = asLogistic(samples, calibration.ceiling, calibration.floor);
   const Eigen::VectorXd deviation = computeDeviations(logistic_samples.x);
   for (Eigen::Index k = 0; k < kEvidenceSize; ++k) logistic_samples.x.col(k) /= deviation(k);
-  const Eigen::VectorXd fitted = fitLogistic(logistic_samples, kAlike / (prior_deviation * prior_deviation));
+  const Eigen::VectorXd fitted =
+      fitLogistic(logistic_samples, kSimilarConsecutive / (prior_deviation * prior_deviation));
   for (Eigen::Index k = 0; k < kEvidenceSize; ++k)
     calibration.weights[static_cast<std::size_t>(k)] = fitted(k) / deviation(k);
   calibration.bias = fitted(kEvidenceSize);

@@ -33,10 +33,10 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-constexpr std::size_t kFirstLooks = 30;    // likeliest keyframes by words, of which some descriptors are compared
-constexpr std::size_t kSecondLooks = 8;    // of these, of which all descriptors are compared
-constexpr std::size_t kFirstLookStep = 4;  // of the descriptors in the first comparison
-constexpr std::size_t kRowsAtATime = 50;   // about 0.1 ms each
+constexpr std::size_t kPartlyCompared = 30;  // likeliest keyframes by words, of which some descriptors are compared
+constexpr std::size_t kFullyCompared = 8;    // of these, of which all descriptors are compared
+constexpr std::size_t kPartialStep = 4;      // of the descriptors in the first comparison
+constexpr std::size_t kRowsAtATime = 50;     // about 0.1 ms each
 
 /// Model of the words of a map's places.
 struct MapModel {
@@ -89,8 +89,8 @@ class KeyframePlaces::Search {
     if (query.status != ObservationStatus::Used || places_.empty()) return {};
     std::vector<Candidate> candidates = likeliest(query.words);
     const LookFeatures look = unpackLook(query.look, "query");
-    compare(look, kFirstLookStep, candidates);
-    if (candidates.size() > kSecondLooks) candidates.resize(kSecondLooks);
+    compare(look, kPartialStep, candidates);
+    if (candidates.size() > kFullyCompared) candidates.resize(kFullyCompared);
     compare(look, 1, candidates);
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < std::min(most, candidates.size()); ++i)
@@ -147,11 +147,11 @@ class KeyframePlaces::Search {
     add(describe(stored && searched.conversion ? searched.conversion->convert(keyframe) : keyframe), true);
   }
 
-  void add(const PlaceDescription& description, bool keeps_look) {
+  void add(const PlaceDescription& description, bool keeps_descriptors) {
     const std::size_t keyframe = read_++;
     if (description.status != ObservationStatus::Used) return;
     index_.add(description.words);
-    places_.push_back({keyframe, keeps_look ? description.look : std::string()});
+    places_.push_back({keyframe, keeps_descriptors ? description.look : std::string()});
   }
 
   PlaceDescription describe(const Keyframe& keyframe) const {
@@ -166,7 +166,7 @@ class KeyframePlaces::Search {
     index_.logLikelihoods(words, likelihoods);
     std::vector<std::size_t> order(likelihoods.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const std::size_t count = std::min(kFirstLooks, order.size());
+    const std::size_t count = std::min(kPartlyCompared, order.size());
     std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
                       [&](std::size_t a, std::size_t b) {
                         return likelihoods[a] != likelihoods[b] ? likelihoods[a] > likelihoods[b] : a < b;

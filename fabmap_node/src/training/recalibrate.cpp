@@ -99,15 +99,16 @@ class SiteRuns {
   }
 
   /// Adds runs of all days of a site against the map of all other sites.
-  void addStranger(const std::vector<PlaceSite>& sites, std::size_t stranger) {
+  void addOtherSites(const std::vector<PlaceSite>& sites, std::size_t unmapped_site) {
     PlaceMatcher matcher(table_, sampled_, options_);
     for (std::size_t s = 0; s < sites.size(); ++s)
-      if (s != stranger)
+      if (s != unmapped_site)
         for (const LocatedPlaces& day : sites[s])
           for (const DescribedPlace& place : day.places) matcher.add(place);
     if (matcher.size() == 0) return;
-    for (const LocatedPlaces& day : sites[stranger]) {
-      runs_.alone.push_back({matchRun(matcher, day.places, kEveryPlace, kAlwaysWrong), Situation::Stranger, stranger});
+    for (const LocatedPlaces& day : sites[unmapped_site]) {
+      runs_.alone.push_back(
+          {matchRun(matcher, day.places, kEveryPlace, kAlwaysWrong), Situation::Stranger, unmapped_site});
       runs_.sequence.push_back(runs_.alone.back());
     }
   }
@@ -129,7 +130,7 @@ KindCalibration fitKind(const PlaceModel& model, const std::vector<PlaceSite>& s
     for (std::size_t m = 0; m < sites[s].size(); ++m)
       for (std::size_t q = m == 0 ? 0 : m + 1; q < sites[s].size(); ++q)
         runs.addDays(sites[s][m], sites[s][q], s, m == q);
-    runs.addStranger(sites, s);
+    runs.addOtherSites(sites, s);
   }
   KindCalibration fitted = fitRuns(runs.runs());
   if (fitted.right == 0 || fitted.wrong == 0)
@@ -137,7 +138,8 @@ KindCalibration fitKind(const PlaceModel& model, const std::vector<PlaceSite>& s
                     "days that revisit places, and places more than 10 m apart");
   report.right += fitted.right;
   report.wrong += fitted.wrong;
-  report.priors.push_back({panoramas ? "panoramas alone" : "single images alone", fitted.alone_prior});
+  report.priors.push_back(
+      {panoramas ? "panoramas without sequence" : "single images without sequence", fitted.alone_prior});
   report.priors.push_back({panoramas ? "panoramas in sequence" : "single images in sequence", fitted.sequence_prior});
   return fitted;
 }

@@ -92,7 +92,7 @@ class Calibrator {
   std::size_t places_ = 0;
 };
 
-void judgeByHeldOut(const std::vector<CalibrationStretch::Spread>& spreads, CalibrationResult& result) {
+void adoptByHeldOut(const std::vector<CalibrationStretch::Spread>& spreads, CalibrationResult& result) {
   result.held_out = spreads.size();
   if (spreads.size() < 2) return;
   const auto count = static_cast<double>(spreads.size());
@@ -124,7 +124,7 @@ CalibrationResult calibrateLasers(const Parameters& parameters, urban_nav_store:
   result.places = calibrator.places();
   result.unconstrained = describeUnconstrained(selected.all, calibrator.lasers());
   result.is_significant = selected.holdsAny();
-  judgeByHeldOut(calibrator.compareHeldOut(), result);
+  adoptByHeldOut(calibrator.compareHeldOut(), result);
   for (std::size_t i = 0; i < calibrator.lasers().size(); ++i)
     result.lasers.push_back(selected.device(i, calibrator.lasers()[i].frame, result.isAdopted()));
   return result;

@@ -140,7 +140,7 @@ class SurfelIndex {
     }
   }
   template <typename Take>
-  void forEachBeside(std::uint64_t block, const Take& take) const {
+  void forEachNeighbour(std::uint64_t block, const Take& take) const {
     for (int dz = -1; dz <= 1; ++dz)
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
@@ -203,7 +203,7 @@ std::vector<CalibrationPatch> matchSurfels(const std::vector<CalibrationSurfel>&
   for (std::uint32_t seed = 0; seed < surfels.size(); ++seed) {
     if (taken[seed] != 0) continue;
     CalibrationPatch patch;
-    index.forEachBeside(surfels[seed].block, [&](std::uint32_t i) {
+    index.forEachNeighbour(surfels[seed].block, [&](std::uint32_t i) {
       if (taken[i] == 0 && isOnPlane(surfels[seed], surfels[i], reach)) patch.surfels.push_back(i);
     });
     if (patch.surfels.size() < 2) continue;

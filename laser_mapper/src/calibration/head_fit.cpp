@@ -17,10 +17,9 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr int kRoundsPerLevel = 4, kFinestRounds = 10;
-constexpr float kBrightnessClip =
-    0.3F;  // of the logarithm of the brightness: larger differences are occlusions
+constexpr float kBrightnessClip = 0.3F;  // of the logarithm of the brightness: larger differences are occlusions
 constexpr int kExposureRounds = 5;
-constexpr std::size_t kFewestSightings = 3;  // views per point
+constexpr std::size_t kFewestViews = 3;      // views per point
 constexpr double kHeadPlaceEdge = 2.0;       // m
 constexpr double kHeadBeyondChance = 3.0;    // standard errors of significance
 constexpr double kLeastRowVariance = 1e-12;  // of logarithms: for images without noise
@@ -107,7 +106,7 @@ std::vector<HeadFit::PointRows> HeadFit::usablePoints(const std::vector<HeadRow>
     values.clear();
     for (std::size_t i = point.first; i < point.last; ++i)
       if (rows[i].is_seen) values.push_back(rows[i].brightness);
-    if (values.size() >= kFewestSightings) usable.push_back({point, place_of_[number], medianBrightness(values)});
+    if (values.size() >= kFewestViews) usable.push_back({point, place_of_[number], medianBrightness(values)});
   }
   return usable;
 }

@@ -14,9 +14,9 @@ using urban_nav_core::Scan;
 
 namespace {
 
-constexpr double kNearBeam = 0.1;  // m: distance of beams to a point that are evaluated
-constexpr float kBehind = 0.3F;    // m: more than errors of poses between passes and the beam width
-constexpr float kLeastLookRange = 0.5F, kMostLookRange = 20.0F;  // m
+constexpr double kNearBeam = 0.1;     // m: distance of beams to a point that are evaluated
+constexpr float kDepthMargin = 0.3F;  // m: more than errors of poses between passes and the beam width
+constexpr float kLeastViewRange = 0.5F, kMostViewRange = 20.0F;  // m
 constexpr float kBeamSpacing = 0.014F;                           // rad: beams 0.5 deg apart, with a margin
 constexpr int kFewestBeams = 4;
 constexpr std::size_t kSweepStep = 4, kStretch = 24;
@@ -64,7 +64,7 @@ void ChunkBeams::divide(Laser& laser) {
     for (std::size_t i = stretch.first; i < stretch.last; ++i) {
       const Vector3d origin = -(sweeps[i].R_laser_map.transpose() * sweeps[i].t_laser_map);
       const double turn = (laser.planes[i].normal - stretch.middle.normal).norm();
-      stretch.reach = std::max(stretch.reach, std::abs(stretch.middle.height(origin)) + turn * kMostLookRange);
+      stretch.reach = std::max(stretch.reach, std::abs(stretch.middle.height(origin)) + turn * kMostViewRange);
     }
     laser.stretches.push_back(stretch);
   }
@@ -79,7 +79,7 @@ std::size_t ChunkBeams::bytes() const {
 void ChunkBeams::lookIn(const Sweep& sweep, const Vector3d& p, Found& found) const {
   const Vector3d q = sweep.R_laser_map * p + sweep.t_laser_map;
   const auto range = static_cast<float>(std::hypot(q.x(), q.y()));
-  if (range < kLeastLookRange || range > kMostLookRange) return;
+  if (range < kLeastViewRange || range > kMostViewRange) return;
   const auto angle = static_cast<float>(std::atan2(q.y(), q.x()));
   const float half = static_cast<float>(kNearBeam) / range + kBeamSpacing;
   const auto begin = angles_.begin() + sweep.first, end = angles_.begin() + sweep.last;
@@ -91,7 +91,7 @@ void ChunkBeams::lookIn(const Sweep& sweep, const Vector3d& p, Found& found) con
   for (auto beam = low; beam != high; ++beam) {
     const float excess = ranges_[static_cast<std::size_t>(beam - angles_.begin())] - range;
     found.least_excess = std::min(found.least_excess, excess);
-    found.hit = found.hit || std::abs(excess) < kBehind;
+    found.hit = found.hit || std::abs(excess) < kDepthMargin;
     ++found.beams;
   }
 }
@@ -119,7 +119,7 @@ Sight ChunkBeams::look(const Vector3d& p) const {
   for (const Laser& laser : lasers_)
     for (const Stretch& stretch : laser.stretches) lookAlong(laser, stretch, p, found);
   if (found.beams < kFewestBeams) return Sight::None;
-  if (found.least_excess > kBehind) return Sight::Through;
+  if (found.least_excess > kDepthMargin) return Sight::Through;
   return found.hit ? Sight::Hit : Sight::None;
 }
 

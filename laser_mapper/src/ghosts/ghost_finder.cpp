@@ -24,7 +24,7 @@ using urban_nav_registration::toKey;
 namespace {
 
 constexpr const char* kGhostState = "laser_mapper_ghosts";
-constexpr double kLongestSight = 20.0;     // m, from the path
+constexpr double kLongestView = 20.0;      // m, from the path
 constexpr std::size_t kCachedChunks = 96;  // about 1 MB each
 constexpr StampNs kPathStep = 250'000'000;
 constexpr std::size_t kCandidatesPerTask = 256, kChunksPerRound = 16, kTilesAtOnce = 8;
@@ -69,8 +69,8 @@ void GhostFinder::listChunks() {
       if (!(low.x() <= high.x())) continue;  // without poses there are no cells
       const double edge = kTileCells * parameters_.voxel;
       const auto tile = [&](double value) { return static_cast<int>(std::floor(value / edge)); };
-      chunk.reach_low = {tile(low.x() - kLongestSight), tile(low.y() - kLongestSight)};
-      chunk.reach_high = {tile(high.x() + kLongestSight), tile(high.y() + kLongestSight)};
+      chunk.reach_low = {tile(low.x() - kLongestView), tile(low.y() - kLongestView)};
+      chunk.reach_high = {tile(high.x() + kLongestView), tile(high.y() + kLongestView)};
       chunks_.push_back(std::move(chunk));
     }
 }

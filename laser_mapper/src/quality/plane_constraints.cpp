@@ -126,17 +126,17 @@ GroupFit fitGroup(const PairGroup& group) {
   Vector6d scale;
   scale << 1.0, 1.0, 1.0, 1.0 / kLength, 1.0 / kLength, 1.0 / kLength;
   const auto eigen = urban_nav_core::smallEigen<6>(scale.asDiagonal() * arrangement * scale.asDiagonal());
-  Matrix6d told = Matrix6d::Zero();  // projector onto these directions
+  Matrix6d observable = Matrix6d::Zero();  // projector onto these directions
   for (int i = 0; i < 6; ++i)
     if (eigen.values(i) > kLeastInformation * eigen.values(5))
-      told += eigen.vectors.col(i) * eigen.vectors.col(i).transpose();
-  const Eigen::Matrix<double, Eigen::Dynamic, 6> along = J * scale.asDiagonal() * told,
+      observable += eigen.vectors.col(i) * eigen.vectors.col(i).transpose();
+  const Eigen::Matrix<double, Eigen::Dynamic, 6> along = J * scale.asDiagonal() * observable,
                                                  weighted = group.weights * along;
   const Matrix6d information = along.transpose() * weighted;
   const double filling = information.trace();  // regularises the other directions, where the solution is zero
   GroupFit fit;
   fit.x = scale.cwiseProduct(
-      urban_nav_core::SmallCholesky<6>(Matrix6d(information + filling * (Matrix6d::Identity() - told)))
+      urban_nav_core::SmallCholesky<6>(Matrix6d(information + filling * (Matrix6d::Identity() - observable)))
           .solve(Vector6d(weighted.transpose() * r)));
   fit.information = scale.cwiseInverse().asDiagonal() * information * scale.cwiseInverse().asDiagonal();
   return fit;

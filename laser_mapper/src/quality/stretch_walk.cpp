@@ -15,9 +15,9 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr double kWalkStep = 0.25;       // s: four steps for a patch of 1.2 m at walking speed
-constexpr double kShortestSight = 1e-3;  // s
-constexpr double kLeastSpread = 1e-12;   // m^4, determinant of the scatter of a patch that extends in two directions
+constexpr double kWalkStep = 0.25;      // s: four steps for a patch of 1.2 m at walking speed
+constexpr double kShortestView = 1e-3;  // s
+constexpr double kLeastSpread = 1e-12;  // m^4, determinant of the scatter of a patch that extends in two directions
 
 /// Returns a matrix M with M M^T = covariance, which may be singular.
 Matrix6d factorCovariance(const Matrix6d& covariance) {
@@ -79,7 +79,7 @@ StretchWalk::StretchWalk(const urban_nav_core::Trajectory& T_map_base, StampNs r
 Eigen::MatrixXd StretchWalk::rows(const PlanePatch& patch, const PlaneAxes& axes) const {
   Eigen::MatrixXd made(3, size());
   const double middle = urban_nav_core::secondsBetween(reference_, patch.stamp);
-  const double half = std::max(std::sqrt(3.0) * patch.stamp_spread, kShortestSight);
+  const double half = std::max(std::sqrt(3.0) * patch.stamp_spread, kShortestView);
   // A gradient g of the displacement along the plane is the rotation g x normal.
   const Eigen::Vector2d gradient = timeGradient(patch, axes);
   for (std::size_t i = 0; i < steps_.size(); ++i) {

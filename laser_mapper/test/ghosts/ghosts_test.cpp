@@ -132,7 +132,7 @@ TEST_F(GhostTest, FlagsFollowTheChunksAndDoNotDependOnThreads) {
   putScans(true, false);
   const Trajectory first = testing_room::driveThroughRoom(20.0), both = twoVisits();
   EXPECT_EQ(makeMap(first).ghost_beams, 0U) << "ghosts cannot be found in a single visit";
-  std::string later, anew;
+  std::string later, from_scratch;
   {
     const urban_nav_core::ThreadLimit limit(1);
     later = makeMap(both).bytes;
@@ -141,10 +141,10 @@ TEST_F(GhostTest, FlagsFollowTheChunksAndDoNotDependOnThreads) {
   store_->sessions().put(kGhostSession, urban_nav_store::Extrinsic{"laser_left", testing_room::roomLaser()});
   {
     const urban_nav_core::ThreadLimit limit(2);
-    anew = makeMap(both).bytes;
+    from_scratch = makeMap(both).bytes;
   }
-  EXPECT_TRUE(later == anew && later.size() > 1000);
-  EXPECT_TRUE(makeMap(both).bytes == anew) << "unchanged";
+  EXPECT_TRUE(later == from_scratch && later.size() > 1000);
+  EXPECT_TRUE(makeMap(both).bytes == from_scratch) << "unchanged";
   EXPECT_GT(makeMap(first).on_person, 100U) << "the visit with beams through the point was removed";
 }
 

@@ -16,7 +16,7 @@ constexpr double kWidestTurn =
 constexpr double kPairMetresPerRadian = 4.0;  // effect of a rotation on the number of matches, as a distance, for a
                                               // field of view of about 65 deg
 constexpr double kUsefulSigma = 2.0;          // m: with less accurate odometry, the nearest keyframes are unknown
-constexpr double kDoubts = 3.0;               // standard deviations for certainly different headings
+constexpr double kHeadingDeviations = 3.0;    // standard deviations for certainly different headings
 
 const NearbyKeyframe& nearestView(const std::vector<NearbyKeyframe>& views, double offset) {
   return *std::min_element(views.begin(), views.end(), [offset](const NearbyKeyframe& x, const NearbyKeyframe& y) {
@@ -56,7 +56,7 @@ std::vector<KeyframePair> chooseKeyframePairs(const std::vector<NearbyKeyframe>&
   if (views_a.empty() || views_b.empty()) return pairs;
   const NearbyKeyframe &a = nearestView(views_a, 0.0), &b = nearestView(views_b, 0.0);
   if (T_a_b) {
-    const double doubt = kDoubts * largestSigma(*T_a_b, 1);
+    const double doubt = kHeadingDeviations * largestSigma(*T_a_b, 1);
     const KeyframePair* best = nullptr;
     std::vector<KeyframePair> all;
     std::vector<double> costs;

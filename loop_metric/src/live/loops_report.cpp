@@ -63,7 +63,7 @@ urban_nav_live::StageReport makeReport(const LoopsState& state) {
   report.add("time of the last candidate (ms)", state.last_ms);
   report.add("dropped by the verifier: queue full", state.verifier.dropped);
   report.add("dropped: before odometry", state.recorder.not_stored);
-  report.add("steps of odometry refused", state.recorder.refused_steps);
+  report.add("steps of odometry rejected", state.recorder.refused_steps);
   report.add("camera", state.camera);
   addStoreFigures(state.store, report);
   return report;

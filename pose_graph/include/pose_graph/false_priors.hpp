@@ -17,7 +17,7 @@ struct FalsePriors {
 
 /// Relaxes odometry, priors and landmark observations under Cauchy's kernel, whose width decreases until it is one
 /// deviation (graduated non-convexity). Rejects those whose chi-square over degrees of freedom ends above 100 times the
-/// median, or above 1 if that is less. Closures are not used: they are selected afterwards with the remaining priors.
+/// larger of their median and 1. Closures are not used: they are selected afterwards with the remaining priors.
 /// Of the priors, and of the observations of one landmark, fewer than half are rejected; if more contradict, all are
 /// kept. The first observation of a landmark, which defines it, is always kept.
 template <int D>

@@ -18,7 +18,7 @@ struct ChainStep {
   TangentMatrix<3> covariance = TangentMatrix<3>::Zero();  ///< inverse of the edge's information
   bool slipped = false;  ///< contradicted by closures: `edge` is the motion that they imply, with almost no information
   bool invertible = true;  ///< false: the information is singular, so the step cannot be part of a condensed chain
-  /// Of the pose at which the step ends (PoseGraph::ownNoise()).
+  /// Covariance of the pose at the end of the step relative to its window (PoseGraph::ownNoise()).
   TangentMatrix<3> own_noise = TangentMatrix<3>::Zero();
 };
 

@@ -38,7 +38,7 @@ class ConstraintAdder {
         placed.push_back(0);
         tied.push_back(0);
       }
-      addSighting(measured, placed, tied);
+      addLandmarkObservation(measured, placed, tied);
     }
   }
 
@@ -129,7 +129,7 @@ class ConstraintAdder {
     return at->second;
   }
 
-  void addSighting(const G2oGraph::PointEdge& measured, std::vector<char>& placed, std::vector<char>& tied) {
+  void addLandmarkObservation(const G2oGraph::PointEdge& measured, std::vector<char>& placed, std::vector<char>& tied) {
     Eigen::Matrix<double, D, 1> at;
     for (int a = 0; a < D; ++a) at[a] = measured.values[sz(a)];
     Edge<D> edge;

@@ -32,13 +32,13 @@ double levelRun(Problem<3>& problem, std::size_t first_edge, std::size_t first_p
   }
   const std::vector<Tilt> tilts = tiltDrift(odometry, variance, forces);
   if (tilts.empty()) return 0.0;
-  const auto leaning = [&](std::size_t i) {
+  const auto correctionAt = [&](std::size_t i) {
     const Eigen::Vector3d turn = tiltAt(tilts, stamps.front(), stamps[i]);
     return Eigen::Quaterniond(urban_nav_core::expSo3(turn) * odometry[i].pose.q());
   };
-  Eigen::Quaterniond before = leaning(0);
+  Eigen::Quaterniond before = correctionAt(0);
   for (std::size_t i = 0; i + 1 < stamps.size(); ++i) {
-    const Eigen::Quaterniond after = leaning(i + 1);
+    const Eigen::Quaterniond after = correctionAt(i + 1);
     Edge<3>& step = problem.edges[first_edge + i];
     step.Z.R = (before.inverse() * after).normalized().toRotationMatrix();
     problem.poses[first_pose + i + 1] = problem.poses[first_pose + i] * step.Z;

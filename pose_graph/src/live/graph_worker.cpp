@@ -139,7 +139,7 @@ urban_nav_live::StageReport GraphWorker::report() const {
   report.add("closures", figures_.closures);
   report.add("closures rejected", figures_.closures_rejected);
   report.add("closures that wait for a second one", figures_.closures_waiting);
-  report.add("closures given up: odometry never reached them", figures_.closures_given_up);
+  report.add("closures dropped: odometry never reached them", figures_.closures_given_up);
   report.add("time of the last relaxation (ms)", figures_.relax_ms);
   report.add("relaxations", relaxations_);
   report.add("refused", refused_);

@@ -308,7 +308,7 @@ std::string LivePoseGraph::load(const StoredGraph& stored) {
   const Loaded loaded = addStored(stored, false);
   return std::to_string(loaded.sessions) + " sessions with " + std::to_string(loaded.poses) + " poses and " +
          std::to_string(loaded.closures) + " closures are in the graph" +
-         (loaded.refused > 0 ? "; " + std::to_string(loaded.refused) + " closures were refused" : "") +
+         (loaded.refused > 0 ? "; " + std::to_string(loaded.refused) + " closures were rejected as invalid" : "") +
          (loaded.known > 0 ? "; " + std::to_string(loaded.known) + " sessions were already loaded" : "");
 }
 

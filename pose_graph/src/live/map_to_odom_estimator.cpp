@@ -20,10 +20,10 @@ bool isIdentity(const Pose& pose) { return isApprox(pose, Pose(), kRoundOff); }
 
 void MapToOdomEstimator::addOdometry(const urban_nav_core::StampedPose& odometry) {
   const bool back = !odometry_.empty() && odometry.stamp < odometry_.rbegin()->first - urban_nav_live::kMaxStepBack;
-  const bool anew = isIdentity(odometry.pose) && (odometry_.empty() || !isIdentity(odometry_.rbegin()->second));
-  if (back || anew) {
+  const bool restarted = isIdentity(odometry.pose) && (odometry_.empty() || !isIdentity(odometry_.rbegin()->second));
+  if (back || restarted) {
     odometry_.clear();
-    starts_at_identity_ = anew;
+    starts_at_identity_ = restarted;
     if (back) ended_session_ = session_;
     T_map_odom_.reset();
   }

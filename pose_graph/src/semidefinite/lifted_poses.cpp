@@ -213,8 +213,8 @@ Numbers lift(const QuadraticForm<D>& form, const std::vector<Rigid<D>>& poses) {
 
 /// Projects each component separately, as each has its own D dimensions. A component with fixed poses has theirs.
 template <int D>
-std::optional<std::vector<Rigid<D>>> laidBack(const QuadraticForm<D>& form, const Numbers& x,
-                                              const std::vector<Rigid<D>>& start, const std::vector<int>& fixed) {
+std::optional<std::vector<Rigid<D>>> projectedPoses(const QuadraticForm<D>& form, const Numbers& x,
+                                                    const std::vector<Rigid<D>>& start, const std::vector<int>& fixed) {
   using Wide = Eigen::Matrix<double, kSideBySide, kSideBySide>;
   using Block = Eigen::Matrix<double, D + 1, kSideBySide, Eigen::RowMajor>;
   const auto block = [&](std::size_t i) {
@@ -267,7 +267,7 @@ std::optional<std::vector<Rigid<D>>> liftedPoses(const Problem<D>& problem, cons
   if (!lifted.prepare()) return std::nullopt;
   for (int i = 0; i < kLiftedSteps && lifted.step(); ++i) {
   }
-  return laidBack<D>(form, lifted.x(), start, problem.fixed);
+  return projectedPoses<D>(form, lifted.x(), start, problem.fixed);
 }
 
 template std::optional<std::vector<Rigid<2>>> liftedPoses(const Problem<2>&, const std::vector<Rigid<2>>&,

@@ -9,8 +9,8 @@
 namespace pose_graph {
 
 /// Returns poses near the global optimum of the chordal objective. Rotations are lifted to eight dimensions, keeping D
-/// columns each (R_i with orthonormal columns in R^8). There, wrap-arounds of rotations are no obstacle, and hardly any
-/// local minima remain (Burer, Monteiro, Math. Program. 2003; Boumal, Voroninski, Bandeira, NeurIPS 2016; Rosen et al.,
+/// columns each (R_i with orthonormal columns in R^8). There, wrap-arounds of rotations are no obstacle, and few local
+/// minima remain (Burer, Monteiro, Math. Program. 2003; Boumal, Voroninski, Bandeira, NeurIPS 2016; Rosen et al.,
 /// SE-Sync, IJRR 2019, section 4). The minimum is projected to the D dimensions with most of its energy.
 ///
 /// Method: Riemannian trust region with truncated conjugate gradients (Absil, Baker, Gallivan, Found. Comput. Math.

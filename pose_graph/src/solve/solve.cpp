@@ -28,12 +28,12 @@ constexpr std::size_t kLeastCondensed = 200;
 
 // Rotation (rad) below which two solutions belong to the same local minimum: a wrap-around rotates some poses by a full
 // turn.
-constexpr double kSameValley = 1.0;
+constexpr double kSameMinimum = 1.0;
 
 template <int D>
-bool inTheSameValley(const std::vector<Rigid<D>>& a, const std::vector<Rigid<D>>& b) {
+bool areInSameMinimum(const std::vector<Rigid<D>>& a, const std::vector<Rigid<D>>& b) {
   for (std::size_t i = 0; i < a.size(); ++i)
-    if (logRotation(Rotation<D>(a[i].R.transpose() * b[i].R)).norm() > kSameValley) return false;
+    if (logRotation(Rotation<D>(a[i].R.transpose() * b[i].R)).norm() > kSameMinimum) return false;
   return true;
 }
 
@@ -41,7 +41,7 @@ template <int D>
 void untangle(NormalEquations<D>& equations, BlockCholesky<kTangentSize<D>>& cholesky, const Problem<D>& problem,
               const SolveOptions& options, const std::vector<double>& weights, Solution<D>& made) {
   auto poses = liftedPoses(problem, made.poses, weights);
-  if (!poses || inTheSameValley(*poses, made.poses)) return;
+  if (!poses || areInSameMinimum(*poses, made.poses)) return;
   Descent descent = minimise(equations, cholesky, options, weights, *poses);
   if (!(descent.cost < made.cost)) return;
   made.poses = std::move(*poses);

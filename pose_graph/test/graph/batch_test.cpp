@@ -86,15 +86,15 @@ TEST(Batch, AClosureThatIsGoneOrMeasuredAnewIsNotWhatTheBatchSaid) {
   PoseGraph live = driven(2);
   Batch batch = live.batch();
   ASSERT_TRUE(live.removeClosure(1));
-  Closure anew = closureAt("a", 40, "a", 40 + kLap);
-  anew.measured.information *= 2.0;
-  const ClosureId id = live.addClosure(anew);
+  Closure second_closure = closureAt("a", 40, "a", 40 + kLap);
+  second_closure.measured.information *= 2.0;
+  const ClosureId id = live.addClosure(second_closure);
   ASSERT_EQ(batch.closures.count(id), 1u);
   run(batch);
   live.take(batch);
   EXPECT_EQ(live.closures().count(1), 0u);
   EXPECT_TRUE(live.closures().at(id).judged);
-  EXPECT_EQ(live.closures().at(id).measured.information, anew.measured.information);
+  EXPECT_EQ(live.closures().at(id).measured.information, second_closure.measured.information);
   EXPECT_EQ(live.closures().at(id).reason, "consistent with the accepted edges");
 }
 

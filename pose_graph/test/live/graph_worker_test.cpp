@@ -207,11 +207,11 @@ TEST(GraphWorker, RequestsOfABatchReceiveItsResult) {
   }
   {
     Worker worker(std::make_unique<Note>(50ms), 100, {});
-    std::future<Figures> anew = worker.optimize();
+    std::future<Figures> second_result = worker.optimize();
     std::future<Figures> next = worker.optimize();
     std::this_thread::sleep_for(20ms);
     set(worker, &Note::Book::due);
-    EXPECT_NO_THROW(anew.get());
+    EXPECT_NO_THROW(second_result.get());
     EXPECT_NO_THROW(next.get());
     EXPECT_EQ(makeBook(worker).batches, 2) << "the first was of a graph that is gone";
   }

@@ -73,7 +73,7 @@ cv::Mat makeLight(const cv::Mat& image) {
   return light;
 }
 
-std::vector<cv::Mat> lookChannels(const cv::Mat& image) {
+std::vector<cv::Mat> appearanceChannels(const cv::Mat& image) {
   std::vector<cv::Mat> channels(ChannelCount);
   for (cv::Mat& channel : channels) channel = cv::Mat::zeros(image.size(), CV_32F);
   const cv::Mat light = makeLight(image);
@@ -115,7 +115,7 @@ float toDeviation(double square, double mean) {
   return static_cast<float>(std::sqrt(std::max(0.0, square - mean * mean)));
 }
 
-constexpr std::size_t kLookValues = 13;  // per window
+constexpr std::size_t kAppearanceValues = 13;  // per window
 
 void writeWindow(const WindowSums& sums, const cv::Rect& window, const ImageMeans& all, float* out) {
   const double valid = sums.sum(Valid, window);
@@ -169,12 +169,12 @@ std::vector<std::string> lookFeatureNames() {
 void measureLook(const Scene& scene, std::size_t first, FeatureTable& table) {
   const cv::Mat& image = scene.view.image;
   if (image.empty()) return;
-  const WindowSums sums(lookChannels(image));
+  const WindowSums sums(appearanceChannels(image));
   const ImageMeans all = imageMeans(sums, image);
   forEachVisible(scene.view, [&](std::size_t i, const Eigen::Vector2f& pixel) {
     for (std::size_t window = 0; window < kWindowRadii.size(); ++window)
       writeWindow(sums, windowAround(image, pixel, kWindowRadii[window]), all,
-                  table.row(i) + first + window * kLookValues);
+                  table.row(i) + first + window * kAppearanceValues);
   });
 }
 

@@ -11,19 +11,19 @@
 namespace scene_labeler {
 namespace {
 
-constexpr std::size_t kDrawnReturns = 200, kLeastJudged = 20;
+constexpr std::size_t kDrawnReturns = 200, kFewestReturns = 20;
 constexpr std::size_t kReferenceSamples = 300;  // whose distances determine the limit
 constexpr std::size_t kLeastWithAspect = 50;    // samples with such features that are required
 constexpr double kReferenceShare = 0.95;
 constexpr double kUsualShare = 0.1, kNewPlaceShare = 0.3;
-constexpr double kMostDoubt = 0.5;  // scene_labeler/bench/other_worlds.py
+constexpr double kMostReduction = 0.5;  // scene_labeler/bench/other_worlds.py
 
 bool endsWith(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
 
 /// Returns the columns of image features in windows or histograms; of two windows those of the wider one.
-std::vector<std::size_t> lookColumns(FeatureSet set) {
+std::vector<std::size_t> appearanceColumns(FeatureSet set) {
   const std::vector<std::string>& names = featureNames(set);
   std::vector<std::size_t> columns;
   for (std::size_t i = firstImageFeature(set); i < names.size(); ++i)
@@ -91,7 +91,7 @@ void PlaceNovelty::Aspect::learn(const ModelSamples& stored, std::size_t row_len
 }
 
 PlaceNovelty::PlaceNovelty(FeatureSet features, const FeatureBins& bins, const ModelSamples& samples) {
-  look_.columns = lookColumns(features);
+  look_.columns = appearanceColumns(features);
   shape_.columns = shapeColumns(features);
   look_.learn(samples, bins.columns());
   shape_.learn(samples, bins.columns());
@@ -103,7 +103,7 @@ double PlaceNovelty::Aspect::shareUnlike(const FeatureBins& bins, const FeatureT
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < is_asked.size(); ++i)
     if (is_asked[i] != 0 && !std::isnan(table.row(i)[columns.front()])) rows.push_back(i);
-  if (rows.size() < kLeastJudged) return 0.0;
+  if (rows.size() < kFewestReturns) return 0.0;
   const std::size_t drawn = std::min(kDrawnReturns, rows.size());
   std::size_t unlike = 0;
   for (std::size_t n = 0; n < drawn; ++n)
@@ -128,7 +128,7 @@ std::string newPlaceWarning(std::size_t new_place_frames, std::size_t frames) {
 void doubtKinds(double share_unlike, const std::vector<SceneClass>& classes, float* probabilities) {
   const double novelty = std::clamp((share_unlike - kUsualShare) / (kNewPlaceShare - kUsualShare), 0.0, 1.0);
   if (novelty == 0.0) return;
-  const auto doubt = static_cast<float>(kMostDoubt * novelty);
+  const auto doubt = static_cast<float>(kMostReduction * novelty);
   for (const bool of_ground : {true, false}) {
     const auto isKind = [&](std::size_t k) { return isKindOfGround(classes[k]) == of_ground; };
     float sum = 0.0F, count = 0.0F;

@@ -363,8 +363,8 @@ HeldOutPatches crossValidate(const std::vector<TrainingFold>& folds, const Sampl
 }
 
 /// Trains with the best setting of cross-validation, and calibrates on the held-out folds.
-void trainAnew(const std::vector<TrainingFold>& folds, const SamplePool& pool, const TrainingOptions& options,
-               const std::function<void(double)>& progress, TrainedModel& trained) {
+void retrain(const std::vector<TrainingFold>& folds, const SamplePool& pool, const TrainingOptions& options,
+             const std::function<void(double)>& progress, TrainedModel& trained) {
   LabelModel& model = trained.model;
   const std::vector<TrialSetting> trials = makeTrials(options.kind);
   HeldOutPatches held_out = crossValidate(folds, pool, trials, options.seed, trained, progress);
@@ -393,7 +393,7 @@ TrainedModel trainModel(std::vector<TrainingFold> folds, const TrainingOptions& 
   model.bins = FeatureBins(pool.values, pool.columns);
   model.calibration = model.patch_calibration = identityCalibration(pool.classes.size());
   for (const TrainingFold& fold : folds) model.sources.push_back(fold.name);
-  if (!addTrees(pool, options, model)) trainAnew(folds, pool, options, progress, trained);
+  if (!addTrees(pool, options, model)) retrain(folds, pool, options, progress, trained);
   model.novelty = measureRanges(pool);
   if (options.base) keepRanges(options.base->novelty, model.novelty);
   model.samples = keepSamples(pool, folds, model);

@@ -120,7 +120,7 @@ TEST(MapLabeler, FollowsClassImagesAtThePointsThatTheirImageShows) {
   const LabelledYard without = label({}), foliage = label(image_of(SceneClass::Foliage));
   EXPECT_EQ(without.class_images, 0U);
   EXPECT_EQ(foliage.class_images, 1U);
-  std::size_t became_foliage = 0, doubted = 0, confirmed = 0;
+  std::size_t became_foliage = 0, became_unsure = 0, confirmed = 0;
   for (std::size_t i = 0; i < foliage.labels.size(); ++i) {
     const PointLabel &before = without.labels[i], &after = foliage.labels[i];
     if (before.label == SceneClass::Foliage) {
@@ -129,11 +129,11 @@ TEST(MapLabeler, FollowsClassImagesAtThePointsThatTheirImageShows) {
     } else if (after.label == SceneClass::Foliage) {
       ++became_foliage;
     } else if (after.probability < before.probability) {
-      ++doubted;
+      ++became_unsure;
     }
   }
-  EXPECT_GT(became_foliage + doubted, without.shown.at(0) / 2) << "ground and wall visible in the image";
-  EXPECT_LT(became_foliage + doubted, yard.labels.size() - 2000) << "only points visible in the image";
+  EXPECT_GT(became_foliage + became_unsure, without.shown.at(0) / 2) << "ground and wall visible in the image";
+  EXPECT_LT(became_foliage + became_unsure, yard.labels.size() - 2000) << "only points visible in the image";
   EXPECT_GT(became_foliage, 0U) << "where the model was not sure";
   EXPECT_GT(confirmed, 0U);
   for (const cv::Mat& silent : {image_of(SceneClass::Vehicle), image_of(SceneClass::Foliage, 50)}) {

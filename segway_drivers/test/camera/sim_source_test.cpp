@@ -53,7 +53,7 @@ SimCameraOptions makeStereoOptions(std::vector<SimCameraFault> faults) {
   return options;
 }
 
-/// What a stereo driver made of a session with faults.
+/// Output of a stereo driver for a session with faults.
 struct StereoRun {
   std::vector<Bb2StampedPair> pairs;
   std::vector<double> at;  // s since the begin, of arrival

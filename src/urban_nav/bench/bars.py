@@ -74,7 +74,7 @@ def consistency(arguments):
         everything += found
     rows.append(["all", "mean", *(f"{nees:.1f}" for nees in np.mean(everything, 0)), ""])
     runs = len(everything)
-    notes = [f"Normalised squared error of the last of so many frames, first poses aligned; 6 is right. {runs} runs: 99 % of means of as many would lie in "
+    notes = [f"Normalised squared error of the last frame, first poses aligned; 6 is expected. {runs} runs: 99 % of means over as many runs are within "
              f"{band(runs)[0]:.2f}...{band(runs)[1]:.2f}."]
     return ("world", "seed", *(f"frame {count}" for count in FRAMES), f"error at {FRAMES[-1]}"), rows, notes
 
@@ -118,7 +118,7 @@ def faults(arguments):
     seeds = arguments.seed or FAULT_SEEDS
     low, high = band(len(seeds))
     return columns, rows, [f"{len(seeds)} sessions of {SHORT} s of each kind, seeds {', '.join(map(str, seeds))}; the fault from {BEGIN} s on for "
-                           f"{DURATION:.0f} s; loops. 99 % of means of as many NEES would lie in {low:.2f}...{high:.2f}."]
+                           f"{DURATION:.0f} s; loops. 99 % of means over as many NEES are within {low:.2f}...{high:.2f}."]
 
 
 @dataclass
@@ -174,11 +174,11 @@ def creep(arguments):
             true = way_of(folder / "poses.txt")
             at = [int(np.argmax(true >= length)) for length in CREPT]
             for name, poses in systems:
-                told = way_of(poses)
-                rows.append([world, str(seed), name, *(f"{100 * (told[i] / true[i] - 1):+.1f} %" if true[i] >= length else "not reached"
+                estimated = way_of(poses)
+                rows.append([world, str(seed), name, *(f"{100 * (estimated[i] / true[i] - 1):+.1f} %" if true[i] >= length else "not reached"
                                                        for i, length in zip(at, CREPT)), str(at[-1])])
     columns = ("world", "seed", "system", *(f"after {100 * length:.0f} cm" for length in CREPT), "frames until then")
-    return columns, rows, ["How much too far the left camera seems to be from where it began, once it is truly so far away. Route creep: at 2 cm/s."]
+    return columns, rows, ["Excess of the estimated distance of the left camera from its start over the true one, at these true distances. Route creep: at 2 cm/s."]
 
 
 def main():

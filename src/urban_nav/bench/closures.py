@@ -22,7 +22,7 @@ COLUMNS = ("session_a", "stamp_a_ns", "session_b", "stamp_b_ns", "probability", 
            "weight", "sigma_m", "sigma_rad")
 SAME_PLACE, OTHER_PLACE = 7.5, 10.0  # m, as in the simulator
 APART = 30.0  # s, within a session
-LOOK = 0.5  # s between panoramas
+PERIOD = 0.5  # s between panoramas
 WRONG_PLACE, WRONG_TURN = 0.3, np.radians(10.0)  # of a false closure, each axis
 
 
@@ -35,7 +35,7 @@ class Session:
                 sys.exit(f"{folder / name}: no such file; simulate writes it beside its bag")
         self.name, self.truth = folder.stem, Truth(folder / "trajectory.tum")
         self.closures = {True: closures_of(folder / "closures_true.csv"), False: closures_of(folder / "closures_false.csv")}
-        seconds = np.arange(self.truth.stamps[0], self.truth.stamps[-1], LOOK)
+        seconds = np.arange(self.truth.stamps[0], self.truth.stamps[-1], PERIOD)
         self.looks = np.rint(seconds * 1e9).astype(np.int64)
         self.places = self.at(self.looks)[:, :3, 3]
 
@@ -82,7 +82,7 @@ def false_pairs(sessions, count, chance):
         if i == j and a > b:
             a, b = b, a
         far = np.linalg.norm(sessions[i].places[a] - sessions[j].places[b]) > OTHER_PLACE
-        if far and (i != j or (b - a) * LOOK > APART):
+        if far and (i != j or (b - a) * PERIOD > APART):
             pairs.append((int(i), int(sessions[i].looks[a]), int(j), int(sessions[j].looks[b])))
     if len(pairs) < count:
         sys.exit("the sessions have no places that lie far enough apart for false closures")

@@ -335,7 +335,7 @@ def fill_map(folder, inputs):
         disk.size(64)
         subprocess.run(inputs.words(out), check=True, capture_output=True)
         good = named == len(sizes) and opened == len(sizes) and inputs.equal(whole, out)
-        notes.append(f"Full disk, `map` with {', '.join(map(str, sizes))} MB: named {named} times of {len(sizes)}, `info` opens {opened}; with room again it ends "
+        notes.append(f"Full disk, `map` with {', '.join(map(str, sizes))} MB: named {named} times of {len(sizes)}, `info` opens {opened}; after space is freed it ends "
                      f"with {'the same' if good else 'OTHER'} bytes.")
     return notes, good
 
@@ -361,8 +361,8 @@ def fill_live(folder):
         feeder.gone()
         opened = subprocess.run([PROGRAM, "info", store], capture_output=True).returncode == 0
     good = bool(named and whole and healed and opened)
-    return [f"Full disk, live, 1 MB: {'named in the status' if named else 'NOT named'} at {before} of {STEPS + 1} poses; with room again "
-            f"{'all are' if whole else 'NOT all are'} there without a restart."], good
+    return [f"Full disk, live, 1 MB: {'named in the status' if named else 'NOT named'} at {before} of {STEPS + 1} poses; after space is freed "
+            f"{'all are' if whole else 'NOT all are'} stored without a restart."], good
 
 
 def main():
@@ -394,10 +394,10 @@ def main():
     if "live_places" in parts:
         nodelet = PlacesNodelet(folder, place_inputs.bags[0])
         counts.append(kill_live(nodelet, arguments.kills, chance))
-        notes.append(f"Nodelet `fabmap_node`: {len(nodelet.feeder.panoramas)} panoramas, fed {live_places.SPEED} times as fast and again from the beginning each time.")
+        notes.append(f"Nodelet `fabmap_node`: {len(nodelet.feeder.panoramas)} panoramas, played at {live_places.SPEED} times the speed, from the beginning each time.")
     if "live" in parts:
         counts.append(kill_live(GraphNodelet(folder), arguments.kills, chance))
-        notes.append(f"Nodelet: {STEPS // RATE} s of odometry with a closure a second, fed {live_graph.SPEED} times as fast and again from the beginning each time.")
+        notes.append(f"Nodelet: {STEPS // RATE} s of odometry with a closure a second, played at {live_graph.SPEED} times the speed, from the beginning each time.")
     if "disk" in parts:
         for said, fine in (fill_map(folder, inputs), fill_live(folder)):
             notes += said

@@ -143,7 +143,7 @@ def main():
              f"Offsets of the topics agree to {1e3 * (max(medians) - min(medians)):.1f} ms; the latencies of the simulated devices are the defaults of their drivers."]
     shift = np.median(match(theirs["/stereo/left/image_raw"], ours["/stereo/left/image_raw"], "/stereo/left/image_raw")[1])
     errors = [odometry_error(bag, session, folder / name, by) for name, bag, by in (("session", session, 0.0), ("drivers", recorded, shift))]
-    notes.append(f"Visual odometry, absolute error: {errors[0]:.3f} m on the session, {errors[1]:.3f} m on what the drivers published.")
+    notes.append(f"Visual odometry, absolute error: {errors[0]:.3f} m on the session, {errors[1]:.3f} m on the output of the drivers.")
     show(("topic", "in the session", "of the drivers", "equal", "stamps, ms", "images, rms grey levels"), rows, notes, measured, arguments.output)
 
 

@@ -113,7 +113,7 @@ def main():
         bags = driven(arguments.folder, case)
         rows += [row_of(case, way, bags, arguments) for way in arguments.way or WAYS]
     notes = [f"Closures with {arguments.sigma_m} m and {arguments.sigma_deg} deg of noise about each axis, {arguments.false:.0f} % as many false ones, "
-             f"seed {arguments.seed}. NEES: 6 is right."]
+             f"seed {arguments.seed}. NEES: 6 is expected."]
     show(COLUMNS, rows, notes, measured, arguments.output)
 
 

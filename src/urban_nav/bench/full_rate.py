@@ -129,9 +129,9 @@ def main():
              str(missing(s, RATES[topic])) if len(s) > 1 else ""] for topic, s in stamps.items()]
     pairs, seen = set(stamps["/stereo/left/image_raw"]), set(stamps["/vo/statistics"])
     counted = {f"{name}, {key}": n for (name, key), n in sorted(losses.items()) if n}
-    notes = ["Missing: steps between stamps that hold further periods of the topic. Seconds from the first stamp to the last.",
-             f"Stereo pairs since the first that odometry took, and not taken by it: {sum(stamp > min(seen, default=0) for stamp in pairs - seen)}; "
-             f"frames that went by prediction alone: {frames[2]}.",
+    notes = ["Missing: steps between stamps that contain further periods of the topic. Seconds from the first stamp to the last.",
+             f"Stereo pairs, after the first one used by odometry, that it did not use: {sum(stamp > min(seen, default=0) for stamp in pairs - seen)}; "
+             f"frames by prediction only: {frames[2]}.",
              "Losses that the drivers counted: " + (", ".join(f"{name} {n}" for name, n in counted.items()) or "none") + ".",
              "Share of a core, %: " + ", ".join(f"{name} {share:.0f}" for name, share in sorted(shares.items()) if share >= 0.5) + f"; all {sum(shares.values()):.0f}."]
     show(("topic", "messages", "Hz", "s", "missing"), rows, notes, measured, arguments.output)

@@ -229,11 +229,11 @@ def disparities_of_blocks(bag, truth_folder, bf):
     for name, other in (("rectified", lambda stamp, left, right: right),
                         ("the left picture and itself, warped by the truth", lambda stamp, left, right: warped(stamp, left, bf, truth_folder))):
         matched = ((stamp, *by_blocks(left, other(stamp, left, right))) for stamp, left, right in list(pairs(bag))[::8])
-        rows.append([f"{name}, StereoSGBM: disparity less the true one, median; of its size", *beside_truth(matched, truth_folder, bf)])
+        rows.append([f"{name}, StereoSGBM: disparity less the true one, median; of its size", *compare_with_truth(matched, truth_folder, bf)])
     return rows
 
 
-def beside_truth(matched, truth_folder, bf):
+def compare_with_truth(matched, truth_folder, bf):
     """Cells of the table, of (stamp, pixels, disparities): beside bf / depth where that is a plane all over the patch."""
     off = []
     for stamp, pixels, found in matched:
@@ -250,7 +250,7 @@ def disparities(name, bag, truth_folder, bf):
     rows = []
     for how, match in (("Lucas-Kanade", by_corners), ("correlation", by_correlation)):
         matched = ((stamp, *match(left, right)) for stamp, left, right in list(pairs(bag))[::4])
-        rows.append([f"{name}, {how}: disparity less the true one, median; of its size", *beside_truth(matched, truth_folder, bf)])
+        rows.append([f"{name}, {how}: disparity less the true one, median; of its size", *compare_with_truth(matched, truth_folder, bf)])
     return rows
 
 
@@ -287,7 +287,7 @@ def clock_of(stamps, values, signal, begin, skewed):
 
 def clocks(bag, truth_folder, places):
     truth = Truth(truth_folder / "trajectory.tum")
-    told = {line.split(",")[0]: [float(x) for x in line.split(",")[1:]]
+    stated = {line.split(",")[0]: [float(x) for x in line.split(",")[1:]]
             for line in (truth_folder / "clocks.csv").read_text().splitlines()[1:]}
     begin, end = truth.stamps[0], truth.stamps[-1]
 
@@ -311,8 +311,8 @@ def clocks(bag, truth_folder, places):
         inside = (stamps > begin + 1) & (stamps < end - 1)
         offset, skew = clock_of(stamps[inside], values[inside], signal, begin, skewed)
         rows.append([f"clock of {name}: offset{'; skew' if skewed else ''}, found beside true",
-                     f"{1000 * offset:+.2f} beside {1000 * told[name][0]:+.2f} ms"
-                     + (f"; {1e6 * skew:+.0f} beside {1e6 * told[name][1]:+.0f} ppm" if skewed else ""), "", inside.sum()])
+                     f"{1000 * offset:+.2f} beside {1000 * stated[name][0]:+.2f} ms"
+                     + (f"; {1e6 * skew:+.0f} beside {1e6 * stated[name][1]:+.0f} ppm" if skewed else ""), "", inside.sum()])
     return rows
 
 

@@ -129,7 +129,7 @@ def main():
     measured = commit()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     rows = [row_of(case, arguments) for case in arguments.case or ["quad:7:300:300"]]
-    show(COLUMNS, rows, ["Another day of the same world, by views, and by clouds where those do not do; reversed: the other way. Starts that leave the map drive further than 3 m from where it was driven; those of a stranger, who drives in another world, all do. One rigid motion lays the first day's map upon its truth."], measured, arguments.output)
+    show(COLUMNS, rows, ["Another day of the same world, by keyframes, or by clouds where these do not match; reversed: in the opposite direction. Starts that leave the map drive further than 3 m from its paths; those of a stranger, in another world, all do. The map of the first day is aligned to its truth by one rigid motion."], measured, arguments.output)
 
 
 if __name__ == "__main__":

@@ -22,7 +22,7 @@ LASERS_WRONG = ("--lag", "laser_left:0.03", "--misplace", "laser_right:1,-0.5,0.
 HEAD_WRONG = ("--lag", "panorama:0.02", "--misplace", "ladybug:-1,0.5,1.5")
 
 
-def turns_that_mend(device, roll, pitch, yaw):
+def correcting_turns(device, roll, pitch, yaw):
     """Returns the truth of a device rotated by these angles (deg) in /tf_static: the rotation vector of the inverse."""
     (sr, cr), (sp, cp), (sy, cy) = [(np.sin(a), np.cos(a)) for a in np.radians((roll, pitch, yaw)) / 2]
     x, y, z, w = sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy, cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy
@@ -33,10 +33,10 @@ def turns_that_mend(device, roll, pitch, yaw):
 # name: world, seed, route, seconds, sensors, simulated errors, {(device, term): truth}
 CASES = {
     "lasers": ("quad", 40, "return", 70, SENSORS, LASERS_WRONG,
-               {("laser_left", "delay_ms"): 30, **turns_that_mend("laser_right", 1, -.5, .3)}),
+               {("laser_left", "delay_ms"): 30, **correcting_turns("laser_right", 1, -.5, .3)}),
     "nothing": ("quad", 40, "return", 70, SENSORS, (), {}),
     "panoramas": ("quad", 41, "return", 12, f"{SENSORS},ladybug", HEAD_WRONG,
-                  {("panorama", "delay_ms"): 20, **turns_that_mend("panorama", -1, .5, 1.5)}),
+                  {("panorama", "delay_ms"): 20, **correcting_turns("panorama", -1, .5, 1.5)}),
     "straight": ("street", 41, "straight300", 40, SENSORS, (), {}),
 }
 TERMS = {"delay_ms": ("delay", "ms"), "turn_x_deg": ("turn about x", "deg"), "turn_y_deg": ("turn about y", "deg"), "turn_z_deg": ("turn about z", "deg")}

@@ -64,7 +64,7 @@ def main():
     before = commit()
     table = [row for case in arguments.cases for row in rows(arguments.folder, case)]
     note = ("Points nearer than 20 m to the laser, leaves excluded; maps along estimates are moved by the rigid motion that aligns the poses. Error over "
-            "sigma: 0.67 is right; along the truth no covariance of the poses is stated.")
+            "sigma: 0.67 is expected; along the truth the poses have no covariance.")
     show(COLUMNS, table, [note], before, arguments.output)
 
 

@@ -53,7 +53,7 @@ def main():
     bag = simulated_bag(arguments.folder / f"{name}.bag", arguments.world, arguments.seed, arguments.duration, "--route", arguments.route,
                         "--sensors", "stereo,ladybug,lasers,imu,wheels")
     rows = [row(bag, stages, planes) for stages in STAGES for planes in (False, True)]
-    note = f"{arguments.duration} s of route {arguments.route} in {arguments.world}, seed {arguments.seed}. Right are 6 (NEES) and 0.67 (error over sigma)."
+    note = f"{arguments.duration} s of route {arguments.route} in {arguments.world}, seed {arguments.seed}. Expected: 6 (NEES) and 0.67 (error over sigma)."
     show(COLUMNS, rows, [note], before, arguments.output)
 
 

@@ -31,7 +31,7 @@ except ImportError:
 COLUMNS = ("world", "drives", "evidence", "compared", "revisits", "right place first", "recall at 100 % precision", "above 0.99", "right", "0.9 to 0.99", "right", "0.05 to 0.9", "right")
 CLAIM_COLUMNS = ("world", "drives", "probability", "verdict", "stretch")
 TWO_DAYS = ("quad:930001:40", "street:930002:40", "begbroke:930003:30")
-STRANGERS = ("quad:930001:40,930004:20,930007:20", "street:930002:40,930005:20,930008:20", "begbroke:930003:30,930006:20,930009:20")
+OTHER_SITES = ("quad:930001:40,930004:20,930007:20", "street:930002:40,930005:20,930008:20", "begbroke:930003:30,930006:20,930009:20")
 ONE_DAY = "begbroke:930003:200"  # around the building in 170 s
 REVERSED = "quad:930001:40"  # to the archway
 RETURN_SECONDS = 60  # to the archway and back
@@ -117,7 +117,7 @@ def judged(found, bags, one_site, only_opposite=False):
     return claims
 
 
-def judged_images(found, positions, stamps):
+def evaluated_images(found, positions, stamps):
     claims = []
     index = {round(stamp * 1e9): i for i, stamp in enumerate(stamps)}
     for match in found:
@@ -185,7 +185,7 @@ class Bench:
         self.add(world, "one day", bags, lambda found: judged(found, bags, True), keep=lambda match: True)
 
     def strangers(self):
-        for case in STRANGERS:
+        for case in OTHER_SITES:
             world, drives = case.split(":", 1)
             bags = [drive(self.folder, world, *each.split(":")) for each in drives.split(",")]
             self.add(world, "strangers", bags, lambda found, bags=bags: judged(found, bags, False), keep=lambda match: match.drive_a != match.drive_b)
@@ -206,15 +206,15 @@ class Bench:
         stamps = [0.25 * i for i in range(len(truth))]
         (images / "times.txt").write_text("".join(f"{stamp}\n" for stamp in stamps))
         positions = [float(row["position"]) for row in truth]
-        self.add("streets, a car", "one day, single images", [images], lambda found: judged_images(found, positions, stamps), keep=lambda match: True)
+        self.add("streets, a car", "one day, single images", [images], lambda found: evaluated_images(found, positions, stamps), keep=lambda match: True)
         for other in self.models:
             name, model = other.split("=", 1)
             found = matches(model, [images], self.folder / "matches.csv", ())
-            self.rows.append(summary(("streets, a car", "one day, single images", name), judged_images(found, positions, stamps)))
+            self.rows.append(summary(("streets, a car", "one day, single images", name), evaluated_images(found, positions, stamps)))
         for peers, is_calibrated in ((self.probabilities, True), (self.peers, False)):
             for peer in peers:
                 name, path = peer.split("=", 1)
-                self.rows.append(summary(("streets, a car", "one day, single images", name), judged_images(peer_matches(Path(path)), positions, stamps), is_calibrated))
+                self.rows.append(summary(("streets, a car", "one day, single images", name), evaluated_images(peer_matches(Path(path)), positions, stamps), is_calibrated))
 
     def write_claims(self):
         with (self.folder / "claims.csv").open("w", newline="") as file:
@@ -243,8 +243,8 @@ def main():
     bench.write_claims()
     if len(arguments.kind or KINDS) > 1:
         bench.rows.append(summary(("all", "", "+ second look"), [claim for _, _, claim in bench.claims]))
-    show(COLUMNS, bench.rows, ["Right within 7.5 m, wrong beyond 10 m, between not counted; of strangers every match is wrong. All: without the rows in the first day alone. Real images: within 3 images, beyond 20. "
-                               "Otherwise mask and parameters as they are by default."], measured, arguments.output)
+    show(COLUMNS, bench.rows, ["Right within 7.5 m, wrong beyond 10 m, distances between are not counted; every match of strangers is wrong. All: without the rows in the first day alone. Real images: within 3 images, beyond 20. "
+                               "Otherwise default mask and parameters."], measured, arguments.output)
 
 
 if __name__ == "__main__":

@@ -169,7 +169,7 @@ def main():
     for folder in (arguments.folder, arguments.work):
         folder.mkdir(parents=True, exist_ok=True)
     rows = [row_of(case, way, arguments) for case in arguments.case or ["quad:7:300:300"] for way in arguments.way or ("found", "given")]
-    notes = ["Stretches of 10 m and poses each 0.5 s that the truth connects, within a drive or between two. False: places more than 10 m apart, or a transform more than 0.5 m off. Processor: the whole run, reading "
+    notes = ["Stretches of 10 m, and poses each 0.5 s, at the same place by the truth, within a drive or between two. False: places more than 10 m apart, or a transform more than 0.5 m off. Processor: the whole run, reading "
              "included."]
     show(COLUMNS, rows, notes, measured, arguments.output)
 

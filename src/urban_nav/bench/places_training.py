@@ -53,7 +53,7 @@ def main():
     before = ((0.0, 0.0), *moments)
     rows = [[*name, *(f"{b - a:.0f}" for a, b in zip(earlier, later))] for name, earlier, later in zip(names, before, moments)]
     rows.append(["all", f"{arguments.threads} threads", *(f"{value:.0f}" for value in moments[-1])])
-    show(COLUMNS, rows, ["Processor time of all threads: with two cores to itself, the training takes half of it or somewhat more."], measured, arguments.output)
+    show(COLUMNS, rows, ["Processor time of all threads: with two free cores, training takes half of it or somewhat more."], measured, arguments.output)
 
 
 if __name__ == "__main__":

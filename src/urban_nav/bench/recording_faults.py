@@ -217,8 +217,8 @@ def main():
     rows = [row for case in arguments.cases for row in measure(case, folder, arguments.only)]
     faults = [row for row in rows if row[1] != "sound"]
     mapped = [row for row in faults if row[6]]
-    notes = [f"{sum(row[2] == 'yes' for row in faults)} of {sum(bool(row[2]) for row in faults)} faults are named with their cause; {sum(row[6] == 'yes' for row in mapped)} of {len(mapped)} give the results "
-             "of the sound session to 1 cm with the options that `doctor` prints. Distances: the largest of the trajectory, and the 95 % quantile of the points of the map."]
+    notes = [f"{sum(row[2] == 'yes' for row in faults)} of {sum(bool(row[2]) for row in faults)} faults are reported with their cause; {sum(row[6] == 'yes' for row in mapped)} of {len(mapped)} have the results "
+             "of the session without faults to 1 cm with the options that `doctor` prints. Distances: the largest of the trajectory, and the 95 % quantile of the points of the map."]
     show(("session", "fault", "named", "options", "as it is, cm", "with options, cm", "as the sound session"), rows, notes, measured, arguments.output)
 
 

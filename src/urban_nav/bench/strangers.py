@@ -57,7 +57,7 @@ def main():
     measured = commit()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     rows = [row_of(arguments.folder, case) for case in arguments.case or CASES]
-    show(COLUMNS, rows, ["Parameters as they are by default; 15 s at each site."], measured, arguments.output)
+    show(COLUMNS, rows, ["Default parameters; 15 s at each site."], measured, arguments.output)
 
 
 if __name__ == "__main__":

@@ -56,7 +56,7 @@ def main():
     folders = [simulated(arguments.worlds / f"{world}{SEED}", world, SEED, LENGTH) for world in WORLDS] + arguments.real
     columns = [column(folder, arguments.worlds / f"tracks_{folder.name}") for folder in folders]
     rows = [[name, PAPER.get(name, ""), *(each[name] for each in columns)] for name in columns[0]]
-    notes = ["Mean (least ... most) over frames; of the paper the means of four sessions (least ... most of all). Track length: features of all frames "
+    notes = ["Mean (least ... most) over frames; for the paper means of four sessions (least ... most of all). Track length: features of all frames "
              "over tracks begun."]
     show(("", "paper, Tables 2 and 3", *WORLDS, *(folder.name for folder in arguments.real)), rows, notes, before, arguments.output)
 

@@ -65,7 +65,7 @@ def main():
     before = commit()
     rows = [r for world in arguments.world or WORLDS for r in rows_of(world, arguments)]
     note = (f"{arguments.duration} s each, seed {arguments.seed}. Plain: a window of one frame, without a prior, with corners at whole pixels. "
-            "NEES: 6 is right.")
+            "NEES: 6 is expected.")
     show(COLUMNS, rows, [note], before, arguments.output)
 
 

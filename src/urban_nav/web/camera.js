@@ -81,7 +81,7 @@
     }
   };
 
-  /** Where a point is in a picture, px from its top left; null if it is not in front of the camera. */
+  /** Returns the pixel of a point in an image, from its top left; null if it is not in front of the camera. */
   nav.project = (m, p, width, height) => {
     const w = m[3] * p[0] + m[7] * p[1] + m[11] * p[2] + m[15];
     if (!(w > 0)) return null;

@@ -31,7 +31,7 @@
   /** A length for a person: "0.07 mm", "1.204 m". */
   nav.lengthText = (metres) => (metres < 0.01 ? `${(1e3 * metres).toFixed(2)} mm` : `${metres.toFixed(3)} m`);
 
-  /** How far a session lies from where another map has it; empty without another map. */
+  /** Returns the distance of a session from its position in another map; empty without another map. */
   nav.comparedText = (compared, session) => {
     if (!compared) return "";
     const its = compared.sessions.find((s) => s.session === session);
@@ -40,7 +40,7 @@
     return `; ${nav.lengthText(its.largest_m)} at most from the other store, at +${its.seconds.toFixed(1)} s, rms ${nav.lengthText(its.rms_m)}`;
   };
 
-  /** What is compared, for the head of the page. */
+  /** Returns the names of the compared maps, for the head of the page. */
   nav.comparedNotice = (compared) => {
     if (!compared) return "";
     const absent = compared.absent_here.length > 0 ? `, which also has ${compared.absent_here.join(", ")}` : "";

@@ -90,7 +90,7 @@
     camera.fit(box.low, box.high, canvas.clientWidth / Math.max(1, canvas.clientHeight));
     draw();
   };
-  /** Shows what the left camera saw at a picked moment, where the store has it. */
+  /** Shows the left image at a picked moment, if the store has it. */
   const showView = async (name, {session, seconds}) => {
     const image = byId(`view-${name}`),
       asked = (image.dataset.asked = `${session} ${seconds}`);
@@ -453,7 +453,7 @@
   };
   const lost = () => nav.putText(byId("status"), "the server cannot be reached");
   let following = null;
-  /** A page that is not seen asks now and then: a browser has few connections to one server. */
+  /** A hidden page polls rarely, because a browser has few connections to one server. */
   const follow = () => {
     if (following) following.abort();
     following = new AbortController();

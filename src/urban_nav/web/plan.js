@@ -86,13 +86,13 @@
   };
 
   const pointOf = (path, i) => [path.points[3 * i], path.points[3 * i + 1], path.points[3 * i + 2]];
-  /** Where a moment {session, seconds} lies; null if it does not. */
+  /** Returns the position of a moment {session, seconds}; null if it is not on a path. */
   nav.placeOf = (paths, moment) => {
     const path = moment && moment.session !== null ? paths[moment.session] : null;
     return path && path.times.length > 0 ? pointOf(path, nav.poseAt(path.times, moment.seconds)) : null;
   };
 
-  /** What a click meets: {closure: ID} for the dot of a drawn closure, {session, seconds} for a pose, or null. */
+  /** Returns the object at a click: {closure: ID} for the dot of a closure, {session, seconds} for a pose, or null. */
   nav.pickInPlan = (matrix, width, height, x, y, paths, closures) => {
     let best = null,
       least = 9;

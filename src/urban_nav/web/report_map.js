@@ -18,7 +18,7 @@
     return {count, places, times, values: bytes.subarray(8 * count), layout: LAYOUT};
   };
 
-  /** What is told of a point, `first` being the stamp of the earliest one in s. */
+  /** Returns the description of a point; `first`: stamp of the earliest point, s. */
   nav.describePoint = (points, i, first) => {
     const at = (name) => points.values[LAYOUT.stride * i + LAYOUT[name]],
       apart = at("quality");

@@ -33,7 +33,7 @@
     for (const row of known.values()) row.remove();
   };
 
-  /** Sets an attribute or property only where it differs: the browser lays out less. */
+  /** Sets an attribute or property only if it differs, which saves layout by the browser. */
   nav.put = (node, name, value) => {
     if (node.getAttribute(name) !== value) node.setAttribute(name, value);
   };

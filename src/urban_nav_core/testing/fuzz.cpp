@@ -31,7 +31,7 @@ std::pair<std::size_t, std::size_t> pieceAround(const std::string& text, std::si
 
 std::string describe(const std::exception& error, const std::string& text) {
   constexpr std::size_t kShown = 2000;
-  return std::string("neither taken nor refused with a UserError: ") + error.what() + "\nthe text:\n" +
+  return std::string("neither accepted nor rejected with a UserError: ") + error.what() + "\nthe text:\n" +
          text.substr(0, kShown);
 }
 

@@ -9,8 +9,8 @@
 namespace urban_nav_core::testing {
 namespace {
 
-// Where planes meet, a pixel is the weighted mean of 4x4 points. In units of the blur: their spacing, the variance of
-// their normal weights, and the remaining blur of each, chosen such that the variances add up to that of one pixel.
+// A pixel at the border of planes is the weighted mean of 4x4 points. In units of the blur: their spacing, the variance
+// of their normal weights, and the remaining blur of each, chosen such that the variances add up to that of one pixel.
 constexpr int kPoints = 4;
 constexpr double kStep = 0.9, kWeightVariance = 0.7, kPointBlur = 0.64;
 // Number of adjacent pixels of a row that share the filter of the central one.

@@ -138,7 +138,7 @@ Texture::Filter Texture::filter(const Footprint& footprint) const {
   result.per_sigma_y = 1.0 / sigma_y;
   result.base = base_;
   for (std::size_t i = 0; i < patterns_.size(); ++i) {
-    // Where a pixel covers several cells, the nearest are not representative: the pattern fades to the overall mean.
+    // If a pixel covers several cells, the nearest ones are not representative: the pattern fades to the overall mean.
     const double blur = std::max(sigma_x * patterns_[i].per_width, sigma_y * patterns_[i].per_height);
     const double fade = attenuation(60.0 * blur * blur * blur * blur);
     result.base += (1.0 - fade) * patterns_[i].mean;

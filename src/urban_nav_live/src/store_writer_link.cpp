@@ -36,7 +36,7 @@ void addStoreFigures(const StoreState& state, StageReport& report) {
   if (state.path.empty()) return;
   report.add("store: writes committed", state.committed);
   report.add("store: writes that wait", state.waiting);
-  report.add("store: writes refused", state.refused);
+  report.add("store: writes rejected", state.refused);
   report.add("store: writes lost", state.lost);
   report.add("store: fault", state.fault);
 }

@@ -15,7 +15,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-// Of a robot on wheels beside the path of the map: kerbs and slopes up to some ten degrees.
+// Deviations of a wheeled robot near the path of the map: kerbs, and slopes up to about ten degrees.
 constexpr double kHeightSigma = 1.0;  // m
 constexpr double kTiltSigma = 0.2;    // rad
 // The accuracy of a click on a map; a smaller variance, or none, was not set deliberately.
@@ -38,7 +38,7 @@ urban_nav_core::PoseWithCovariance toInitialPose(const geometry_msgs::PoseWithCo
   const double scale = values ? std::max(1.0, covariance.cwiseAbs().maxCoeff()) : 1.0;
   if (!values || (*values)[0] < -1e-9 * scale ||
       (covariance - covariance.transpose()).cwiseAbs().maxCoeff() > 1e-9 * scale)
-    throw UserError(where, "the covariance is none", "finite, symmetric, no negative eigenvalue");
+    throw UserError(where, "the covariance is not valid", "finite, symmetric, no negative eigenvalue");
   if (covariance(2, 2) <= 0.0) {
     double nearest = std::numeric_limits<double>::infinity(), height = pose->t().z();
     for (const urban_nav_store::StoredTrajectory& session : map)

@@ -234,10 +234,10 @@ class CloudSearch::Implementation {
     std::vector<std::size_t> best;
     for (const auto& [score, i] : scores) {
       if (best.size() == kMaxAlignedPlaces) break;
-      const auto isBeside = [&, i = i](std::size_t other) {
+      const auto isNeighbour = [&, i = i](std::size_t other) {
         return distanceBetween(places_[i].T_map_base, places_[other].T_map_base) < 0.9 * kPlaceDistance;
       };
-      if (std::none_of(best.begin(), best.end(), isBeside)) best.push_back(i);
+      if (std::none_of(best.begin(), best.end(), isNeighbour)) best.push_back(i);
     }
     return best;
   }

@@ -254,31 +254,30 @@ LocalizationEstimate Localiser::at(StampNs stamp) const {
   const bool finds_nothing = misses_ >= kMaxMisses;
   if (best_.members.empty() || !odometry_.nearestFrame(stamp))
     return finds_nothing ? because(LocalizationState::Unmapped, LocalizationReason::NothingSimilar,
-                                   "nothing here looks like the map")
+                                   "no keyframe or cloud of the surroundings matches the map")
                          : because(LocalizationState::Uncertain, LocalizationReason::NoMatch,
-                                   "nothing in the map was recognised yet");
+                                   "no place of the map was recognised yet");
   estimate.T_map_base = fuse(best_, stamp);
   estimate.supporting_matches = best_.supporting_matches;
   estimate.probability = computeProbability(best_.supporting_matches, second_.supporting_matches);
   const double sigma = positionSigma(*estimate.T_map_base);
   if (best_.supporting_matches == 0)
     return because(LocalizationState::Uncertain, LocalizationReason::InitialPoseOnly,
-                   "it was given by hand, and nothing was matched yet");
+                   "the pose is an initial pose that no match confirmed yet");
   if (best_.supporting_matches < kMinMatches)
     return because(LocalizationState::Uncertain, LocalizationReason::SingleMatch,
-                   "one sighting, and no second one that agrees");
+                   "one match, without a second consistent one");
   if (second_.supporting_matches >= best_.supporting_matches || against() >= kMinMatches)
-    return because(LocalizationState::Uncertain, LocalizationReason::Contested,
-                   "as many sightings say that it is elsewhere");
+    return because(LocalizationState::Uncertain, LocalizationReason::Contested, "as many matches support another pose");
   if (unconfirmed_ >= kMaxMisses)
     return because(LocalizationState::Uncertain, LocalizationReason::NotConfirmed,
-                   "the map's views of this place show something else");
+                   "keyframes of the map at this pose do not match");
   if (sigma > kMaxLocalizedSigma)
     return because(finds_nothing ? LocalizationState::Unmapped : LocalizationState::Uncertain,
                    LocalizationReason::TooLongAgo,
-                   "the last sighting is too long ago: odometry is good to " + metres(sigma));
+                   "the last match is too long ago: odometry since then is accurate to " + metres(sigma));
   return because(LocalizationState::Localized, LocalizationReason::None,
-                 std::to_string(best_.supporting_matches) + " sightings agree, to " + metres(sigma));
+                 std::to_string(best_.supporting_matches) + " consistent matches, accurate to " + metres(sigma));
 }
 
 }  // namespace urban_nav_localization

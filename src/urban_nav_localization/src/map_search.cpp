@@ -115,8 +115,9 @@ class MapSearch::Implementation {
            angleBetween(view.T_map_base, prior.T_map_base->pose) <= kMaxSureAngle;
   }
 
-  /// Returns the first keyframe that can be registered: a second one of the same place is no second match. If it places
-  /// the robot far from it, and the map has keyframes near that pose, one of them must match too, and is more accurate.
+  /// Returns the match with the first keyframe that can be registered, since others of the same place are not
+  /// independent. If the resulting pose is far from the keyframe, and the map has keyframes near that pose, one of
+  /// these must match too and is returned, because it is more accurate.
   std::optional<MapMatch> findFirst(const std::vector<std::size_t>& views, const Keyframe& view) {
     const std::optional<MapMatch> seen = registered(views, view);
     if (!seen || isFirm(seen->measured)) return seen;
@@ -134,11 +135,11 @@ class MapSearch::Implementation {
   }
 
   /// Returns the keyframes nearest to a pose.
-  std::vector<std::size_t> near(const Pose& here, double most_way, double most_turn) const {
+  std::vector<std::size_t> near(const Pose& here, double most_path, double most_turn) const {
     std::vector<std::pair<double, std::size_t>> costs;
     for (std::size_t i = 0; i < views_.size(); ++i) {
       const double way = distanceBetween(views_[i].T_map_base, here), turn = angleBetween(views_[i].T_map_base, here);
-      if (way <= most_way && turn <= most_turn) costs.emplace_back(way + kMetresPerRadianOfView * turn, i);
+      if (way <= most_path && turn <= most_turn) costs.emplace_back(way + kMetresPerRadianOfView * turn, i);
     }
     std::sort(costs.begin(), costs.end());
     std::vector<std::size_t> nearest;

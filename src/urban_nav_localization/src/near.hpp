@@ -5,8 +5,8 @@
 
 namespace urban_nav_localization {
 
-/// Returns whether an estimate tells which places of the map are near: if Localized, or if an initial pose is accurate
-/// enough. A single match does not, since it may be false.
+/// Returns whether an estimate is accurate enough to select nearby places of the map: if Localized, or if an initial
+/// pose is accurate enough. A single match is not sufficient, since it may be false.
 inline bool isNearKnownPlace(const LocalizationEstimate& estimate) {
   constexpr double kMaxInitialSigma = 2.0;  // m
   if (!estimate.T_map_base) return false;

@@ -38,7 +38,7 @@ constexpr StampNs kPeriod = 100'000'000;      // ns
 constexpr StampNs kDay = 86'400'000'000'000;  // ns
 constexpr int kFrames = 280;
 
-/// Through the courtyard and, the other day, back a metre and a half beside.
+/// Poses of a drive through a courtyard, and of the way back on another day, 1.5 m to the side.
 Pose there(int i) { return Pose(Eigen::Quaterniond::Identity(), {kPerStep * i - 14.0, -0.75, 0.0}); }
 Pose back(int i) {
   return Pose(Eigen::Quaterniond(Eigen::AngleAxisd(3.14159265358979, Eigen::Vector3d::UnitZ())),
@@ -163,7 +163,7 @@ TEST_F(CloudSearchTest, FindsARobotThatDrivesTheOtherWay) {
   EXPECT_LT(angleBetween(estimate.T_map_base->pose, truth), 0.01);
 }
 
-// So alike that clouds of the one fitted into the other, by four tenths of what stands there.
+// Two similar courtyards: clouds of one fit the other with an overlap of 0.4.
 TEST_F(CloudSearchTest, KnowsNothingInAnotherCourtyard) {
   map(urban_nav_core::testing::courtyard(4));
   for (const std::uint64_t seed : {13U, 26U}) {

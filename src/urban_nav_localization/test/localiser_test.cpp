@@ -35,7 +35,7 @@ class LocaliserTest : public ::testing::Test {
     }
   }
   static Pose truth(double seconds) { return poseAt(10.0 + seconds, 5.0); }
-  /// A sighting of a place of the map 2 m beside, wrong by `error` in the map.
+  /// Adds a match with a place of the map 2 m to the side, with the error `error` in the map.
   void see(int second, const Pose& error = Pose(), double sigma_m = 0.02) {
     const Pose T_map_a = poseAt(11.0 + second, 7.0, 1.0);
     Constraint measured;

@@ -79,7 +79,7 @@ class MapSearchTest : public ::testing::Test {
     }
     store_->commit();
   }
-  /// The other day, 0.3 m beside: the view, and the odometry up to it.
+  /// Returns keyframe i of another day, 0.3 m to the side, and adds the odometry up to it.
   Keyframe visit(int i, double carried = 0.0) {
     if (i > 0) {
       urban_nav_core::RelativePose step;

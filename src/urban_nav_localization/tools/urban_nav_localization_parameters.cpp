@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What README.md and config/*.yaml say of the parameters; test/parameters_test.cpp compares them with the tables.
+// Prints the parameter tables of README.md and config/*.yaml; test/parameters_test.cpp compares them with the code.
 #include "live/nodelet_parameters.hpp"
 #include "urban_nav_core/parameters/documents.hpp"
 #include "urban_nav_localization/parameters.hpp"

@@ -141,8 +141,8 @@ int main(int argc, char** argv) try {
     addPeers(pair.name, options.peers, table);
   }
   table.note(
-      "From the identity, cubes of 0.25 m, one core, reading excluded: preprocessing, alignment, and of urban_nav the "
-      "look around for what fits as well elsewhere, the classifier and the covariance. Stored poses are good to some "
+      "From the identity, cubes of 0.25 m, one core, reading excluded: preprocessing, alignment, and for urban_nav the "
+      "search for other poses that fit as well, the validation and the covariance. Stored poses are accurate to about "
       "0.02 m and 0.2 deg, 0.04 m and 0.25 deg. Random starts: up to 5 m and any heading away.");
   if (!options.peers.empty())
     table.note(

@@ -62,7 +62,7 @@ constexpr double kPlaceRadiusM = 9.0;  // loop_metric.place_radius
 constexpr double kDegrees = 57.29577951308232;
 constexpr double kElsewhereM = 10.0;              // minimum distance of different places
 constexpr double kWrongM = 0.5, kWrongDeg = 3.0;  // beyond, a transform is wrong rather than inaccurate
-constexpr double kLeastWayM = 25.0;               // between places of one day, so that their clouds share no beam
+constexpr double kLeastPathM = 25.0;              // between places of one day, so that their clouds share no beam
 
 struct Place {
   int day = 0;
@@ -114,7 +114,7 @@ class Program {
     for (std::size_t i = 0; i < places.size(); ++i)
       for (std::size_t j = i + 1; j < places.size(); ++j) {
         const Place &a = places[i], &b = places[j];
-        if (a.day == b.day && std::abs(a.way - b.way) < kLeastWayM) continue;
+        if (a.day == b.day && std::abs(a.way - b.way) < kLeastPathM) continue;
         const double apart = urban_nav_core::distanceBetween(a.T_world_base, b.T_world_base);
         const double turned = kDegrees * urban_nav_core::angleBetween(a.T_world_base, b.T_world_base);
         if (apart > kElsewhereM) pairs.back().emplace_back(i, j);
@@ -209,8 +209,8 @@ int main(int argc, char** argv) try {
                    argc, argv);
   table.note(
       "Pairs up to 7.5 m apart of one day or two, without a guess; another place: more than 10 m apart, all that are "
-      "accepted. Wrong: off by more than half a metre or 3 deg. NEES: 6 is right, 5.3 its median. Time: one core, from "
-      "the points of both clouds to the verdict, the search among all headings with it.");
+      "accepted. Wrong: off by more than half a metre or 3 deg. NEES: 6 is expected, with a median of 5.3. Time: one "
+      "core, from the points of both clouds to the verdict, with the search over all headings.");
   Program program(options);
   for (const std::string& folder : options.folders) program.run(folder, table);
   std::cout << table.text();

@@ -248,7 +248,7 @@ class Program {
     }
     if (pairs.empty()) return;
     Tally tally;
-    double largest_likeness = 0.0;
+    double largest_correlation = 0.0;
     int most_matches = 0;
     StereoMatcher matcher(recording.camera, parameters_);
     for (const auto& [i, j] : pairs) {
@@ -259,14 +259,15 @@ class Program {
       std::optional<Pose> T_a_b;
       if (accepted) T_a_b = closure.lefts.T_a_b;
       tally.see(T_a_b, nullptr, truth, processMs() - before);
-      if (closure.matches >= parameters_.min_matches) largest_likeness = std::max(largest_likeness, closure.likeness);
+      if (closure.matches >= parameters_.min_matches)
+        largest_correlation = std::max(largest_correlation, closure.likeness);
       most_matches = std::max(most_matches, closure.matches);
       if (options_.list && (accepted || closure.matches > 20)) list(name + " FALSE", i, j, truth, closure);
       if (accepted) draw(name + "_false", keyframes[i], keyframes[j], closure);
     }
     std::cout << name << ": of " << pairs.size() << " false pairs " << tally.upgraded.size()
               << " accepted; most matches " << most_matches << ", largest likeness of those with enough "
-              << cell(largest_likeness, 2) << "\n";
+              << cell(largest_correlation, 2) << "\n";
     addRow(table, name, "another place", tally, {}, {}, false);
   }
 
@@ -284,9 +285,9 @@ int main(int argc, char** argv) try {
                    argc, argv);
   table.note(
       "Wrong: off by more than half a metre or 3 deg; of pairs of different places, all that are accepted. NEES: 6 is "
-      "right, 5.3 its median. Time: one core, both keyframes from their images, and what leads from them to the "
-      "verdict. OpenCV on every third pair: 500 features, ratio test, depth by StereoSGBM, solvePnPRansac and "
-      "solvePnPRefineLM, 50 inliers wanted.");
+      "expected, with a median of 5.3. Time: one core, from the images of both keyframes to the verdict. OpenCV on "
+      "every third pair: 500 features, ratio test, depth by StereoSGBM, solvePnPRansac and solvePnPRefineLM, 50 "
+      "inliers required.");
   Program program(options);
   for (const std::string& folder : options.folders) program.run(folder, table);
   std::cout << table.text();

@@ -186,10 +186,10 @@ int main(int argc, char** argv) try {
   table.add(
       {"... between two that have one (%)", percent(real.alone, real.beams), percent(look.alone, look.beams), ""});
   table.note(
-      "Upper half: beside what the middle of each simulated beam met. Lower half: beside 518 turns, 3.5 s, of "
-      "the two real lasers of the New College log, as median (tenth ... "
-      "ninth decile); distance: earth mover's, in units of the real standard deviation. Jitter: second "
-      "differences of a beam over three turns, over the root of 6.");
+      "Upper half: compared with the surfaces on the axes of the simulated beams. Lower half: compared with 518 turns, "
+      "3.5 s, of the two real lasers of the New College log, as median (tenth ... ninth decile); distance: earth "
+      "mover's, in units of the real standard deviation. Jitter: second differences of a beam over three turns, over "
+      "the root of 6.");
   return show(table, options);
 } catch (const std::exception& error) {
   return urban_nav_sim::bench::complain(error);

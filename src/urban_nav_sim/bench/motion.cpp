@@ -116,7 +116,7 @@ int main(int argc, char** argv) try {
   add("speed about its trend (m/s)", "0.04", [](const DriveStatistics& m) { return sway(m.speed, m.speed); });
   table.note(
       "Real: the first four rows are the sessions of Tables 2 and 3, the others 3.5 s of the New College log, whose "
-      "pitch and roll come in steps of 0.13 deg. The trend is a parabola over 3.5 s.");
+      "pitch and roll have steps of 0.13 deg. The trend is a parabola over 3.5 s.");
   std::cout << table.text();
   if (!output.empty()) table.write(output);
   return 0;

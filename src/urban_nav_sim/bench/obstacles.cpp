@@ -31,13 +31,13 @@ constexpr double kThinnest = 0.1, kWidest = 0.5, kLowest = 0.12, kHighest = 0.6;
 constexpr double kSpeed = 0.7;                                                    // m/s, for the motion blur
 
 /// The motion at one time, with a rotated heading.
-struct Look : Motion {
+struct View : Motion {
   MotionState state;
   double duration() const override { return 1.0; }
   MotionState at(double /*t*/) const override { return state; }
 };
 
-MotionState lookAside(MotionState state, double angle) {
+MotionState turnAside(MotionState state, double angle) {
   state.T_world_base = state.T_world_base * Pose(urban_nav_core::expSo3({0.0, 0.0, angle}), Eigen::Vector3d::Zero());
   state.velocity_world = state.T_world_base.R() * Eigen::Vector3d(kSpeed, 0.0, 0.0);
   state.rate_base.setZero();
@@ -71,17 +71,17 @@ int main(int argc, char** argv) try {
   const auto drive = simulateDrive(world, makeRoute(name, seed, "loops"), ride);
   Draw draw(hash(seed, 0x0B57));
   Site site(world, seed);
-  std::vector<Look> looks(static_cast<std::size_t>(places));
+  std::vector<View> looks(static_cast<std::size_t>(places));
   for (int i = 0; i < places; ++i) {
-    Look& look = looks[static_cast<std::size_t>(i)];
-    look.state = lookAside(drive->at(kBegin + kBetween * i), draw.uniform(-kAside, kAside));
+    View& look = looks[static_cast<std::size_t>(i)];
+    look.state = turnAside(drive->at(kBegin + kBetween * i), draw.uniform(-kAside, kAside));
     placeBox(site, look.state.T_world_base, draw);
   }
   const Tracer tracer(world);
   const Sky sky(world.day, seed);
   const Pose T_base_left = sensorPose(urban_nav_core::frames::kStereoLeft);
   StereoFolder folder(path);
-  for (const Look& look : looks) {
+  for (const View& look : looks) {
     // One head per place, so that its initial exposure is correct.
     StereoHead head(tracer, sky, StereoImages::Rectified, T_base_left, draw.bits());
     folder.add(head.take(look, 0.0), look.state.T_world_base * T_base_left);

@@ -130,9 +130,9 @@ int main(int argc, char** argv) try {
   add("log2(1 + gradient), every pixel", &Textures::gradients, 2);
   table.note(
       "Median (tenth ... ninth decile) over frames. Real: every eighth left image of kitti06_000_050 and "
-      "kitti_raw_0926_0005, at full size and at the simulated camera's pixels a radian. Simulated: the rows that the "
-      "real cameras would see, 15 deg above and below the horizon. Distance: earth mover's, in units of the real "
-      "standard deviation.");
+      "kitti_raw_0926_0005, at full size and at the simulated camera's pixels a radian. Simulated: the rows in the "
+      "field of view of the real cameras, 15 deg above and below the horizon. Distance: earth mover's, in units of the "
+      "real standard deviation.");
   return show(table, options);
 } catch (const std::exception& error) {
   return urban_nav_sim::bench::complain(error);

@@ -34,20 +34,20 @@ struct Aside : Motion {
   double duration() const override { return way.duration(); }
   MotionState at(double t) const override {
     MotionState motion_state = way.at(t + later);
-    motion_state.T_world_base = motion_state.T_world_base * T_way_base;
+    motion_state.T_world_base = motion_state.T_world_base * T_path_base;
     return motion_state;
   }
 
   const Motion& way;
   double later = 0.0;
-  Pose T_way_base;
+  Pose T_path_base;
 };
 
 void goAside(const Noise& noise, Aside& motion) {
   const auto draw = [&noise](std::uint64_t counter, double most) { return noise.uniform(counter, -most, most); };
   motion.later = draw(0, kMostBefore);
-  motion.T_way_base = Pose(urban_nav_core::expSo3({draw(1, kMostTilted), draw(2, kMostTilted), draw(3, kMostTurned)}),
-                           {0.0, draw(4, kMostAside), draw(5, kMostLifted)});
+  motion.T_path_base = Pose(urban_nav_core::expSo3({draw(1, kMostTilted), draw(2, kMostTilted), draw(3, kMostTurned)}),
+                            {0.0, draw(4, kMostAside), draw(5, kMostLifted)});
 }
 
 }  // namespace

@@ -100,8 +100,8 @@ int main(int argc, char** argv) try {
     for (const int threads : {1, 2}) add("all", {kDefaultSensors.begin(), kDefaultSensors.end()}, threads);
   }
   table.note(
-      "Allowed with all sensors: 6.67 core-seconds a second (60 s in 200 s on two cores) and 2 000 MB. "
-      "Measurements alone, without a bag. Seconds by the clock say something where the machine does nothing else.");
+      "Allowed with all sensors: 6.67 core-seconds a second (60 s in 200 s on two cores) and 2 000 MB. Measurements "
+      "only, without a bag. Wall time is meaningful only on an idle machine.");
   return show(table, options);
 } catch (const std::exception& error) {
   return urban_nav_sim::bench::complain(error);

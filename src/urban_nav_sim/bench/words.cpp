@@ -193,11 +193,11 @@ int main(int argc, char** argv) try {
   BenchTable table(columns, argc, argv);
   for (const auto& row : rows) table.add(row);
   table.note(
-      "1 000 words of SIFT by BOWKMeansTrainer, learnt on day 1 of all worlds with another seed. Taken for: nearest "
-      "neighbour by tf-idf, on the same ride among places that lie 25 m of driving back, else among all of day 1 that "
-      "are not within 1 m; it is the same place within 5 m and 46 deg, elsewhere from 10 m on. Taken for known: more "
-      "like a place elsewhere than half of those been at before are like their own. Words gone: of those in the left "
-      "image of day 1, median over every fourth place. Day 3 is wet, on day 4 the leaves are down.");
+      "1 000 words of SIFT by BOWKMeansTrainer, trained on day 1 of all worlds with another seed. Taken for: nearest "
+      "neighbour by tf-idf, on the same drive among places at least 25 m of driving earlier, otherwise among all of "
+      "day 1 that are not within 1 m; the same place is within 5 m and 46 deg, another one beyond 10 m. Taken for "
+      "known: more similar to another place than half of the revisits are to their own. Words gone: of those in the "
+      "left image of day 1, median over every fourth place. Day 3 is wet, on day 4 the leaves are down.");
   return show(table, options);
 } catch (const std::exception& error) {
   return urban_nav_sim::bench::complain(error);

@@ -44,7 +44,7 @@ double forEachOfTopic(const std::string& path, const std::string& topic, BagTopi
     is_empty = false;
     take(*message, std::max(message->header.stamp.toSec() - begin, 0.0));
   }
-  if (is_empty && kind == BagTopic::Required) throw DataError(path, "holds nothing on " + topic, "");
+  if (is_empty && kind == BagTopic::Required) throw DataError(path, "has no messages on " + topic, "");
   return begin;
 }
 

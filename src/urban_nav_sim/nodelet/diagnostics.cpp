@@ -42,7 +42,7 @@ void Diagnostics::fill(diagnostic_updater::DiagnosticStatusWrapper& status) cons
   status.add("state", progress_.state);
   status.add("time (s)", rounded(progress_.time));
   status.add("duration (s)", rounded(duration_));
-  status.add("rate asked for", rate_ > 0.0 ? rounded(rate_) : std::string("as fast as it can"));
+  status.add("requested rate", rate_ > 0.0 ? rounded(rate_) : std::string("as fast as possible"));
   status.add("time factor", progress_.factor ? rounded(*progress_.factor) : std::string("not measured yet"));
   status.add("messages", progress_.messages);
 }

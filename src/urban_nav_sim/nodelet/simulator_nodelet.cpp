@@ -73,7 +73,7 @@ class SimulatorNodelet : public nodelet::Nodelet {
   std::optional<RateController> pace_;
   StampNs session_begin_ = 0, now_ = 0;
   std::int64_t published_ = 0;  // in this session
-  bool slowness_said_ = false;
+  bool slowness_reported_ = false;
 };
 
 void SimulatorNodelet::onInit() {
@@ -121,7 +121,7 @@ void SimulatorNodelet::advertiseServices() {
     services_.push_back(getPrivateNodeHandle().advertiseService(name, callback));
   };
   advertise("reset", "the session begins again", [this] { orders_.reset(); });
-  advertise("pause", "time stands until resume", [this] { orders_.pause(true); });
+  advertise("pause", "time stops until resume", [this] { orders_.pause(true); });
   advertise("resume", "the session continues", [this] { orders_.pause(false); });
 }
 
@@ -169,8 +169,8 @@ void SimulatorNodelet::publish(const std::vector<TopicMessage>& messages, StampN
   published_ += static_cast<std::int64_t>(messages.size());
   pace_->passed(taken, Clock::now());
   report("running", taken);
-  if (slowness_said_ || !pace_->isSlow()) return;
-  slowness_said_ = true;
+  if (slowness_reported_ || !pace_->isSlow()) return;
+  slowness_reported_ = true;
   NODELET_WARN(
       "the simulation runs at %.2f times real time, not at %g: time follows what has been rendered; fewer "
       "sensors render faster",

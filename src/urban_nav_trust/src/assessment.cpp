@@ -115,7 +115,7 @@ MapTrust assessMap(const std::vector<FrameTrust>& frames, const TestResults& res
   } else if (const std::string missing = missingSentence(confirm(results), results); !missing.empty()) {
     map.reason = missing;
   } else if (2 * count(frames, TrustState::Unsure) > frames.size()) {
-    map.reason = "in sessions with more than half of the frames, turns or lengths were measured by one sensor only";
+    map.reason = "turns or lengths were measured by one sensor only in sessions with more than half of the frames";
   } else if (count(frames, TrustState::Known) == 0) {
     map.state = TrustState::New;
     map.reason = "no session is joined to the first one";

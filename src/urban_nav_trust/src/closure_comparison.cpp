@@ -65,14 +65,13 @@ void testKind(const std::vector<ClosureDifference>& closures, bool by_laser, Tes
   test.statistic = worst.squared_distance;
   test.degrees_of_freedom = static_cast<double>(worst.closure->difference.size());
   test.p_value = std::min(1.0, static_cast<double>(compared.size()) * worst.p_value);
-  test.sentence = std::to_string(compared.size()) + (by_laser ? " closures by lasers" : " closures by stereo") +
-                  " differ from odometry by up to " + formatNumber(worst.closure->distance_m) + " m and " +
+  test.sentence = std::string("Closures by ") + (by_laser ? "lasers (" : "stereo (") + std::to_string(compared.size()) +
+                  ") differ from odometry by up to " + formatNumber(worst.closure->distance_m) + " m and " +
                   formatNumber(worst.closure->angle_rad * 180.0 / M_PI) + " deg, " +
-                  formatNumber(std::sqrt(worst.perAxis()), 3) + " times their stated standard deviation.";
+                  formatNumber(std::sqrt(worst.perAxis()), 3) + " times the stated standard deviation.";
   test.remedy =
       "Odometry drifts more than its covariance states, or a closure is false: check the calibration of the stereo "
-      "pair and the "
-      "closure with `why`.";
+      "pair, and the closures with `urban_nav why`.";
   results.tests.push_back(std::move(test));
 }
 

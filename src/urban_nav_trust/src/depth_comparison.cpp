@@ -65,11 +65,14 @@ bool addScaleTest(const std::vector<KeyframeMatches>& keyframes, double rig_scal
   test.statistic = z * z;
   test.degrees_of_freedom = 1.0;
   test.p_value = 2.0 * upperTail(std::abs(z));
-  test.sentence = "Lengths by stereo exceed those by the lasers by " + formatNumber(100.0 * found.scale) + " % (+-" +
-                  formatNumber(100.0 * found.sigma, 2) + ") at " + std::to_string(found.matches) + " points of " +
+  test.sentence = "Distances by stereo are " + formatNumber(100.0 * std::abs(found.scale)) + " % (+-" +
+                  formatNumber(100.0 * found.sigma, 2) + ") " + (found.scale < 0.0 ? "shorter" : "longer") +
+                  " than those by the lasers, at " + std::to_string(found.matches) + " points of " +
                   std::to_string(found.keyframes) + " keyframes.";
-  test.remedy = "Baseline or focal length of the stereo pair is wrong: calibrate it, or set input.baseline_scale to " +
-                formatNumber(1.0 / (1.0 + found.scale), 4) + ".";
+  test.remedy =
+      "The baseline or the focal length of the stereo pair is wrong: calibrate it, or set "
+      "input.baseline_scale to " +
+      formatNumber(1.0 / (1.0 + found.scale), 4) + ".";
   tests.push_back(std::move(test));
   return true;
 }
@@ -95,12 +98,12 @@ bool addExchangeTest(const std::vector<KeyframeMatches>& keyframes, std::vector<
   test.statistic = mean / std::sqrt(variance);
   test.degrees_of_freedom = count;
   test.p_value = upperTail(test.statistic);
-  const std::string shares = formatNumber(100.0 * stated / count, 2) +
-                             " % of the stereo points on walls lie on surfaces "
-                             "of the lasers as stated, " +
-                             formatNumber(100.0 * exchanged / count, 2) + " % with left and right exchanged";
-  test.sentence = shares + (mean > 0.0 ? ": the lasers are exchanged." : ".");
-  test.remedy = "Exchange the topics of laser_left and laser_right (--topic), or their cables.";
+  test.sentence = formatNumber(100.0 * stated / count, 2) +
+                  " % of the stereo points on walls lie on surfaces measured by the lasers, " +
+                  formatNumber(100.0 * exchanged / count, 2) + " % if the left and right laser are exchanged.";
+  test.remedy =
+      "The left and right laser are exchanged: exchange the topics of laser_left and laser_right (--topic), or the "
+      "cables.";
   tests.push_back(std::move(test));
   return true;
 }
@@ -151,8 +154,8 @@ DepthScale estimateDepthScale(const std::vector<KeyframeMatches>& keyframes) {
 
 void testDepths(const std::vector<KeyframeMatches>& keyframes, double rig_scale, std::vector<ConsistencyTest>& tests,
                 std::vector<AbsentMeasurement>& absent) {
-  const char* reason = keyframes.empty() ? "no keyframes with points of dense stereo and scans of lasers"
-                                         : "stereo and lasers share too few surfaces";
+  const char* reason = keyframes.empty() ? "no keyframes with dense stereo and laser scans"
+                                         : "too few surfaces were measured by both stereo and lasers";
   if (keyframes.empty() || !addScaleTest(keyframes, rig_scale, tests)) absent.push_back({kDepthScaleTest, reason});
   if (keyframes.empty() || !addExchangeTest(keyframes, tests)) absent.push_back({kExchangeTest, reason});
 }

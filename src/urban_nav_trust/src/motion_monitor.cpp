@@ -131,9 +131,11 @@ std::optional<ConsistencyTest> MotionMonitor::turnTest() const {
   test.p_value = turnProbability(largest_turn_, turn_windows_);
   if (test.p_value < false_alarm_) test.interval = worst_turn_.interval;
   test.sentence = "Turns by stereo and by the gyroscope differ by up to " +
-                  formatNumber(kDegrees * worst_turn_.turn_error.norm()) + " deg in a second, of " +
-                  std::to_string(turn_windows_) + " seconds.";
-  test.remedy = "The stereo head or the IMU has moved, or one of them fails: check their mounting and clocks.";
+                  formatNumber(kDegrees * worst_turn_.turn_error.norm()) + " deg within a second (" +
+                  std::to_string(turn_windows_) + " seconds compared).";
+  test.remedy =
+      "The stereo head or the IMU has moved, or one of them fails: fasten both, measure their mounting again "
+      "(/tf_static), and check their clocks.";
   return test;
 }
 
@@ -156,7 +158,7 @@ std::optional<ConsistencyTest> MotionMonitor::makeTest(const Wording& wording, c
   };
   if (!has_changed)
     test.sentence = std::string(wording.quantity) + " stays at " + value(segments.front()) + " in " +
-                    std::to_string(count) + " windows.";
+                    std::to_string(count) + " measurements.";
   else
     test.sentence =
         std::string(wording.quantity) + " changed from " + value(segments.front()) + " to " + value(segments[1]) + ".";
@@ -166,14 +168,15 @@ std::optional<ConsistencyTest> MotionMonitor::makeTest(const Wording& wording, c
 std::vector<ConsistencyTest> MotionMonitor::tests() const {
   static constexpr double kDegrees = 180.0 / M_PI;
   static constexpr Wording kSpeed = {
-      kSpeedTest, "Lengths by stereo relative to those by wheels", "%",
+      kSpeedTest, "The excess of distances by stereo over those by the wheels", "%",
       "The scale of stereo or of the wheels has changed: calibrate the stereo pair; check tyres and slip.", 100.0};
   static constexpr Wording kDirection = {
-      kDirectionTest, "The direction of travel by stereo in the robot's frame, where wheels roll straight ahead,",
-      "deg", "The stereo head has turned on its mount: fasten it and measure its mounting (/tf_static).", kDegrees};
+      kDirectionTest, "The angle from the robot's x axis to the direction of travel by stereo", "deg",
+      "The stereo head has turned on its mount: fasten it and measure its mounting again (/tf_static).", kDegrees};
   static constexpr Wording kClock = {
-      kClockTest, "The delay of the IMU's stamps on the clock of the cameras", "ms",
-      "The clock of the cameras or of the IMU drifts: synchronise their stamps (input.imu_delay for a constant one).",
+      kClockTest, "The delay of the IMU's stamps relative to those of the cameras", "ms",
+      "The clocks of the cameras and of the IMU drift apart: synchronise them (input.imu_delay corrects only a "
+      "constant delay).",
       1e3};
   std::vector<ConsistencyTest> tests;
   const auto append = [&](std::optional<ConsistencyTest> test) {
@@ -191,10 +194,10 @@ std::vector<AbsentMeasurement> MotionMonitor::absent() const {
   const auto check = [&](const char* name, const Constant& constant, const char* reason) {
     if (constant.detector.measurements() < 2) absent.push_back({name, reason});
   };
-  if (turn_windows_ < 2) absent.push_back({kTurnTest, "no gyroscope with the images for two seconds"});
-  check(kSpeedTest, speed_, "no wheels with the images for two seconds of motion");
-  check(kDirectionTest, direction_, "no wheels with the images for two seconds of motion");
-  check(kClockTest, clock_, "no gyroscope, or too few turns to know its delay");
+  if (turn_windows_ < 2) absent.push_back({kTurnTest, "no gyroscope data with images for two seconds"});
+  check(kSpeedTest, speed_, "no wheel odometry with images for two seconds of motion");
+  check(kDirectionTest, direction_, "no wheel odometry with images for two seconds of motion");
+  check(kClockTest, clock_, "no gyroscope data, or too few turns to estimate their delay");
   return absent;
 }
 

@@ -25,12 +25,12 @@ constexpr double kDrift = 0.5;       // subtracted from each residual in the cum
 constexpr double kTurnProbability = 1e-6;
 
 constexpr const char* kRemedy =
-    "A camera of the stereo pair, left or right, was turned or moved against the other, and odometry could not correct "
-    "its images: lengths measured since then are wrong. Fix the mount, calibrate the pair and map the part after the "
-    "change as a session of its own.";
+    "The left or the right camera of the stereo pair was turned or displaced relative to the other, and odometry could "
+    "not correct its images: lengths measured since then are wrong. Fasten the mount, calibrate the pair, and map the "
+    "part after the change as a separate session.";
 constexpr const char* kCorrectedRemedy =
-    "Images after the change were corrected, so the map can be used. Fix the mount of the stereo cameras and calibrate "
-    "the pair before the next session.";
+    "Images after the change were corrected, so the map can be used. Fasten the mount of the stereo cameras and "
+    "calibrate the pair before the next session.";
 
 /// Returns the standard deviation of a step whose landmarks neighbouring frames share, px.
 double deviation(double sigma_px) { return std::sqrt(kSharedLandmarks) * std::hypot(sigma_px, kStepFloor); }
@@ -107,9 +107,9 @@ std::string OffsetMonitor::describe(const Change& change) const {
                      formatNumber(urban_nav_core::secondsBetween(first_, change.stamp), 4) + " s";
   if (!change.is_corrected) return text;
   const Eigen::Vector3d degrees = 180.0 / M_PI * change.turn;
-  return text + ", where odometry measured that the right camera turned by " + formatNumber(degrees.x(), 2) +
-         " deg in pitch, " + formatNumber(degrees.y(), 2) + " in yaw and " + formatNumber(degrees.z(), 2) +
-         " in roll against the left one, and corrected its images from " +
+  return text + ", where the right camera turned by " + formatNumber(degrees.x(), 2) + " deg in pitch, " +
+         formatNumber(degrees.y(), 2) + " in yaw and " + formatNumber(degrees.z(), 2) +
+         " in roll relative to the left one; odometry measured this and corrected its images from " +
          formatNumber(urban_nav_core::secondsBetween(first_, change.corrected_at), 4) + " s on";
 }
 
@@ -123,7 +123,7 @@ std::optional<ConsistencyTest> OffsetMonitor::test() const {
   test.p_value = urban_nav_core::changeProbability(largest_, std::max(frames_, kHorizon));
   if (changes_.empty()) {
     test.sentence = "Disparities agree with those predicted from earlier frames in " + std::to_string(frames_) +
-                    " frames: the stereo cameras keep their mounting.";
+                    " frames: neither stereo camera has moved relative to the other.";
     test.remedy = kRemedy;
     return test;
   }

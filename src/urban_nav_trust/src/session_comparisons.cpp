@@ -33,7 +33,7 @@ Eigen::Matrix<double, 3, 2> across(const Eigen::Vector3d& up) {
 
 void addLidarScale(const LidarComparison& lidar, double rig_scale, TestResults& results) {
   if (!(lidar.scale_sigma > 0.0)) {
-    results.absent.push_back({kLidarScaleTest, "stereo's scale was not compared with a LiDAR"});
+    results.absent.push_back({kLidarScaleTest, "stereo and LiDAR odometry did not determine the scale of stereo"});
     return;
   }
   const double z = lidar.scale / std::hypot(lidar.scale_sigma, rig_scale);
@@ -43,10 +43,13 @@ void addLidarScale(const LidarComparison& lidar, double rig_scale, TestResults& 
   test.statistic = z * z;
   test.degrees_of_freedom = 1.0;
   test.p_value = twoSided(z);
-  test.sentence = "Lengths by stereo exceed those by the LiDAR by " + formatNumber(-100.0 * lidar.scale) + " % (+-" +
-                  formatNumber(100.0 * lidar.scale_sigma, 2) + ").";
-  test.remedy = "Baseline or focal length of the stereo pair is wrong: calibrate it, or set input.baseline_scale to " +
-                formatNumber(1.0 + lidar.scale, 4) + ".";
+  test.sentence = "Distances by stereo are " + formatNumber(100.0 * std::abs(lidar.scale)) + " % (+-" +
+                  formatNumber(100.0 * lidar.scale_sigma, 2) + ") " + (lidar.scale > 0.0 ? "shorter" : "longer") +
+                  " than those by the LiDAR.";
+  test.remedy =
+      "The baseline or the focal length of the stereo pair is wrong: calibrate it, or set "
+      "input.baseline_scale to " +
+      formatNumber(1.0 + lidar.scale, 4) + ".";
   results.tests.push_back(std::move(test));
 }
 
@@ -69,17 +72,19 @@ void testGravity(const std::optional<UpEstimate>& by_ground, const std::optional
   test.p_value = std::exp(-0.5 * test.statistic);
   const double angle =
       std::atan2(by_ground->up.cross(by_accelerometer->up).norm(), by_ground->up.dot(by_accelerometer->up));
-  test.sentence = "The ground measured by stereo is tilted by " + formatNumber(kDegrees * angle) + " deg (+-" +
+  test.sentence = "The mean ground plane by stereo is tilted by " + formatNumber(kDegrees * angle) + " deg (+-" +
                   formatNumber(kDegrees * std::sqrt(0.5 * covariance.trace()), 2) +
-                  ") against the accelerometer's gravity, on average.";
-  test.remedy = "The mounting of the stereo head or the IMU differs from /tf_static: measure its roll and pitch.";
+                  ") relative to the horizontal plane by the accelerometer.";
+  test.remedy =
+      "The roll or pitch of the stereo head or of the IMU differs from /tf_static: measure both, and correct "
+      "/tf_static.";
   results.tests.push_back(std::move(test));
 }
 
 void testLidar(const std::optional<LidarComparison>& comparison, double rig_scale, TestResults& results) {
   if (!comparison || comparison->stretches < 2) {
-    results.absent.push_back({kLidarTest, "no LiDAR odometry with the images"});
-    results.absent.push_back({kLidarScaleTest, "no LiDAR odometry with the images"});
+    results.absent.push_back({kLidarTest, "no LiDAR odometry with images for two seconds"});
+    results.absent.push_back({kLidarScaleTest, "no LiDAR odometry with images for two seconds"});
     return;
   }
   const double axes = kPoseNumbers * static_cast<double>(comparison->stretches);
@@ -95,11 +100,13 @@ void testLidar(const std::optional<LidarComparison>& comparison, double rig_scal
                           probabilityUnderUnknownScale(comparison->largest,
                                                        [](double x) { return chiSquareTail(x, kPoseNumbers); });
   test.p_value = std::min(1.0, 2.0 * std::min(of_all, of_worst));
-  test.sentence = "In " + std::to_string(comparison->stretches) +
-                  " stretches of 1 s stereo and LiDAR odometry differ by " +
-                  formatNumber(std::sqrt(comparison->spread), 3) + " times their stated standard deviation, and " +
-                  std::to_string(comparison->contradictions) + " of them contradict each other.";
-  test.remedy = "Compare --odometry stereo and --odometry laser, and check clocks and mounting.";
+  test.sentence = "Over " + std::to_string(comparison->stretches) +
+                  " intervals of 1 s, stereo and LiDAR odometry differ by " +
+                  formatNumber(std::sqrt(comparison->spread), 3) + " times the stated standard deviation; in " +
+                  std::to_string(comparison->contradictions) + " intervals they contradict each other.";
+  test.remedy =
+      "Stereo or LiDAR odometry is wrong: compare the paths by --odometry stereo and --odometry laser, and check the "
+      "clocks and the mounting (/tf_static) of cameras and LiDAR.";
   results.tests.push_back(std::move(test));
   // Covariances were multiplied by the spread: the normalised residuals have mean square one.
   ScaleWeights log_likelihoods{};

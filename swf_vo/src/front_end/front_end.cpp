@@ -36,7 +36,7 @@ constexpr double kReferenceArea = 512.0 * 384.0;  // image size of the parameter
 constexpr int kTopWidth = 160;                    // maximum width of the image whose rotation is estimated
 constexpr double kCoarseSlackPx = 1.0, kFineSlackPx = 0.1, kNoticedRowOffsetPx = 0.1;
 // Templates of landmarks not measured recently are warped far, with an approximate slant of the surface.
-constexpr double kAstraySlackPx = 0.5;
+constexpr double kLostSlackPx = 0.5;
 // Number of hypotheses for unknown motion, sufficient if one match in five is correct.
 constexpr int kWideSamples = 400;
 // Within the window landmarks are static, so their template drift is part of the measurement noise: n measurements with
@@ -54,7 +54,7 @@ constexpr int kMostMissed = 3, kMostMissedYoung = 1;  // frames
 constexpr int kTurnAttempts = 3;
 constexpr double kTurnEvidence = 3.0 * 24.0;
 constexpr int kLongestAside = 50;  // frames after which a landmark has left the view
-constexpr int kDisagreementsRefute = 2, kDisagreementsRefuteYoung = 1, kYoung = 3;  // frames
+constexpr int kDisagreementsReject = 2, kDisagreementsRejectYoung = 1, kYoung = 3;  // frames
 
 int topLevel(int width) {
   int level = 0;
@@ -113,10 +113,10 @@ class FrontEnd::Implementation {
     gather(map);
     const bool next = frame == frame_ + 1;
     T_window_odom_ = last.inverse();
-    if (next) learnNoise();
+    if (next) updateNoise();
     for (Match& match : matches_) match.inflation = noise_.of(match.track->noise);
     if (!next || quality.astray) radius_.setUnknown();
-    astray_ = astray_ || quality.astray || !next;
+    position_is_lost_ = position_is_lost_ || quality.astray || !next;
     radius_.setLimit(quality.sigma_m, T_window_odom_, matches_);
     const Pose T_turned_odom = turn(next ? last : T_odom_localised_, predicted, quality.is_turn_known);
     result_.T_odom_turned = T_turned_odom.inverse();
@@ -134,7 +134,7 @@ class FrontEnd::Implementation {
     result_.rig = rig_.evaluate();
     result_.rig.right_turn_rad = right_turn_.turn();
     result_.noise_scale = std::sqrt(noise_.typical());
-    astray_ = !result_.localised && !matches_.empty();
+    position_is_lost_ = !result_.localised && !matches_.empty();
     frame_ = frame;
     T_odom_localised_ = result_.T_odom_camera;
     return result_;
@@ -146,7 +146,7 @@ class FrontEnd::Implementation {
     archive(corners_, rotation_);
     tracks_.archive(archive, parameters_.pyramid_levels);
     archive(noise_, rows_, right_turn_, rig_, replenisher_, residual_test_, result_.row_offset_px, result_.noise_scale);
-    archive(radius_, astray_, frame_, T_odom_localised_, T_window_odom_);
+    archive(radius_, position_is_lost_, frame_, T_odom_localised_, T_window_odom_);
     archive.require(residual_test_.size() == static_cast<std::size_t>(parameters_.pyramid_levels), "missing levels");
   }
 
@@ -194,7 +194,7 @@ class FrontEnd::Implementation {
     listParallax(camera_, last.inverse(), T_now_last.t(), matches_, parallax_);
     const RotationEstimate seen =
         rotation_.track(corners_.image(Side::Left, corners_.top()), corners_.top(), T_now_last.q(), parallax_);
-    result_.turned = seen.found && !(is_known && astray_);
+    result_.turned = seen.found && !(is_known && position_is_lost_);
     if (!result_.turned) return predicted.inverse();
     // The camera is rotated at its predicted position.
     const Quaterniond correction = seen.q_now_last * T_now_last.q().inverse();
@@ -232,7 +232,7 @@ class FrontEnd::Implementation {
 
   /// Updates the noise scale with the residuals of the previous frame at the updated estimates, corrected for the
   /// degrees of freedom of the landmark's own position.
-  void learnNoise() {
+  void updateNoise() {
     for (const Match& match : matches_) {
       Track& track = *match.track;
       if (track.measured != frame_ || track.seen < 2) continue;
@@ -269,7 +269,7 @@ class FrontEnd::Implementation {
   /// Variant for predictions that may be far off after frames without measurements, mainly in heading, so that
   /// templates are warped badly. Tries headings around the prediction and the previous position (the gap may be a clock
   /// jump), then matches again from the pose with most inliers.
-  PoseEstimate matchAstray(PoseEstimate best, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
+  PoseEstimate matchAfterLoss(PoseEstimate best, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
     radius_.setUnknown();
     if (!best.found || 2 * best.inliers < best.candidates) {
       const auto tryFrom = [&](const Pose& T_camera_odom) {
@@ -307,7 +307,7 @@ class FrontEnd::Implementation {
   }
 
   /// Updates the search radius from the distances between inliers and their predictions.
-  void learnRadius(const Pose& T_expected_odom) {
+  void updateRadius(const Pose& T_expected_odom) {
     listPredictionErrors(camera_, T_expected_odom, matches_, errors_);
     radius_.learn(errors_);
   }
@@ -320,14 +320,14 @@ class FrontEnd::Implementation {
     }
     matchAcross(corners_, camera_, coarse.found ? coarse.T_camera_odom : T_turned_odom, matches_, rows_.px());
     for (Match& match : matches_) {
-      dropMisfits(match);
+      dropOutliers(match);
       measure(match);
     }
     T_coarse_odom_ = coarse.found ? coarse.T_camera_odom : T_predicted_odom;
     if (coarse.found) result_.disparity_step = steps_.measure(camera_, T_coarse_odom_, matches_);
     starts_.assign({T_coarse_odom_});
     PoseEstimatorOptions options;
-    options.slack_px = astray_ ? kAstraySlackPx : kFineSlackPx;
+    options.slack_px = position_is_lost_ ? kLostSlackPx : kFineSlackPx;
     options.least_inliers = parameters_.lost_features;
     return pose_estimator_.locate(starts_, options, matches_);
   }
@@ -338,7 +338,7 @@ class FrontEnd::Implementation {
     if (2 * coarse.inliers < coarse.candidates && radius_.widen())
       coarse = matchCoarsely(T_turned_odom, T_predicted_odom);
     if (2 * coarse.inliers < coarse.candidates) coarse = matchAsIfStill(coarse, T_turned_odom);
-    if (astray_) coarse = matchAstray(coarse, T_turned_odom, T_predicted_odom);
+    if (position_is_lost_) coarse = matchAfterLoss(coarse, T_turned_odom, T_predicted_odom);
     PoseEstimate fine = matchFinely(coarse, T_turned_odom, T_predicted_odom);
     if (fine.inliers < parameters_.degraded_features)
       if (const auto wide = searchWidely(T_turned_odom, fine.inliers))
@@ -346,20 +346,20 @@ class FrontEnd::Implementation {
 
     result_.candidates = fine.candidates;
     result_.localised = fine.found && !isOneEyed(fine.inliers) &&
-                        !(astray_ && isByChance(camera_, fine.T_camera_odom, fine.inliers, matches_));
+                        !(position_is_lost_ && isByChance(camera_, fine.T_camera_odom, fine.inliers, matches_));
     radius_.setUnknown();
     if (!result_.localised) {
       for (Match& match : matches_) match.inlier = false;
       return;
     }
-    learnRadius(T_turned_odom);
+    updateRadius(T_turned_odom);
     result_.T_odom_camera = fine.T_camera_odom.inverse();
     result_.inlier_share = static_cast<double>(fine.inliers) / fine.candidates;
     result_.reprojection_px = fine.reprojection_px;
   }
 
-  /// Locates the frame again with the right camera turned as the steps suggest, as after a knock. The turn is taken if
-  /// the matches fit better by more than chance; otherwise everything is restored.
+  /// Estimates the pose again with the right image corrected by the turn that the steps imply, as after a knock. The
+  /// turn is accepted if matches then fit better by more than chance explains; otherwise everything is restored.
   void detectTurn(const StereoPair& pair, const Pose& T_turned_odom, const Pose& T_predicted_odom) {
     std::optional<Eigen::Vector3d> turn = right_turn_.propose(measureSteps(), pair.stamp);
     for (int i = 0; turn && i < kTurnAttempts; ++i) {
@@ -394,7 +394,7 @@ class FrontEnd::Implementation {
     combine(parameters_.pixel_noise_floor, match, rows_.px());
   }
 
-  void dropMisfits(Match& match) {
+  void dropOutliers(Match& match) {
     PatchResidualTest& test = residual_test_[static_cast<std::size_t>(match.track->level)];
     for (PixelMeasurement* sighting : {&match.left, &match.right})
       if (sighting->found && !test.isTypical(sighting->noise)) *sighting = PixelMeasurement();
@@ -439,7 +439,7 @@ class FrontEnd::Implementation {
     const bool unlike = track.sharper || !track.blur.isZero();
     if (unlike && ++track.aside <= kLongestAside) return;
     if (result_.localised && (match.measured || match.contradicted)) {
-      if (++track.disagreed < (track.seen < kYoung ? kDisagreementsRefuteYoung : kDisagreementsRefute)) return;
+      if (++track.disagreed < (track.seen < kYoung ? kDisagreementsRejectYoung : kDisagreementsReject)) return;
       result_.refuted.push_back(track.id);
       tracks_.end(track.id);
       return;
@@ -476,7 +476,7 @@ class FrontEnd::Implementation {
   std::vector<Pose> starts_;
   std::vector<double> errors_;
   Edges edges_;
-  bool astray_ = false;  // the previous pose is known by prediction only
+  bool position_is_lost_ = false;  // the previous pose is known by prediction only
   FrameId frame_ = -2;
   Pose T_odom_localised_;  // estimate of the frame processed last
   Pose T_window_odom_;     // previous frame, current estimate of the window

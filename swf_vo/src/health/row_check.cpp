@@ -17,13 +17,13 @@ using urban_nav_core::SadPatch;
 namespace {
 
 constexpr int kCellColumns = 10, kCellRows = 8;
-constexpr int kContrastThreshold = 12;       // grey levels, of FAST
-constexpr int kRowsToSearch = 24;            // px to both sides
-constexpr double kFarthestDisparity = 0.16;  // share of the image's width, as in Replenisher
-constexpr int kNearestDisparity = -8;        // px: converging cameras
-constexpr double kUniqueShare = 0.85;        // best over second best, more than two pixels away
-constexpr double kContrastShare = 0.75;      // best over the patch's own contrast
-constexpr std::size_t kEnoughToJudge = 15;   // matches required
+constexpr int kContrastThreshold = 12;         // grey levels, of FAST
+constexpr int kRowsToSearch = 24;              // px to both sides
+constexpr double kFarthestDisparity = 0.16;    // share of the image's width, as in Replenisher
+constexpr int kNearestDisparity = -8;          // px: converging cameras
+constexpr double kUniqueShare = 0.85;          // best over second best, more than two pixels away
+constexpr double kContrastShare = 0.75;        // best over the patch's own contrast
+constexpr std::size_t kFewestRowMatches = 15;  // matches required
 constexpr int kPairsApart = 20;
 
 int contrastOf(const SadPatch& patch) {
@@ -83,7 +83,7 @@ std::optional<double> RowCheck::measure(const urban_nav_core::StereoPair& pair, 
     differences_.push_back(std::abs(there.v - v - row_offset_px));
     matches_.push_back({Eigen::Vector2d(u, v), Eigen::Vector2d(there.u, there.v)});
   }
-  if (differences_.size() < kEnoughToJudge) return std::nullopt;
+  if (differences_.size() < kFewestRowMatches) return std::nullopt;
   const auto middle = differences_.begin() + static_cast<std::ptrdiff_t>(differences_.size() / 2);
   std::nth_element(differences_.begin(), middle, differences_.end());
   return *middle;

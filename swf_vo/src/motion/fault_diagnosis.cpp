@@ -136,7 +136,8 @@ Axes findAxes(const std::vector<ComparedStep>& steps) {
 
 MotionFault diagnoseGyroscope(const std::vector<ComparedStep>& steps, const DiagnosisInput& input) {
   if (input.repeated_s > kFrozen) return {Kind::Frozen, frozenSentence(input.repeated_s)};
-  if (steps.size() < kFewestSteps) return {Kind::Unknown, "its rates contradict the images"};
+  if (steps.size() < kFewestSteps)
+    return {Kind::Unknown, "its rates contradict the images: check its mounting and its driver"};
   const bool is_biased = !input.bias.isZero();
   const Correlation plain = correlate(steps, 0, same);
   if (is_biased && plain.cosine > kGoodCorrelation) return {Kind::Bias, biasSentence(input)};
@@ -164,7 +165,8 @@ MotionFault diagnoseGyroscope(const std::vector<ComparedStep>& steps, const Diag
 
 MotionFault diagnoseWheels(const std::vector<ComparedStep>& steps, const DiagnosisInput& input) {
   if (input.repeated_s > kFrozen) return {Kind::Frozen, frozenSentence(input.repeated_s)};
-  if (steps.size() < kFewestSteps) return {Kind::Unknown, "their speed contradicts the images"};
+  if (steps.size() < kFewestSteps)
+    return {Kind::Unknown, "their speed contradicts the images: they slip, or their calibration is wrong"};
   double by_images = 0.0, by_wheels = 0.0, both = 0.0;
   for (const ComparedStep& step : steps) {
     by_images += step.by_images.x() * step.by_images.x();

@@ -125,7 +125,7 @@ Command evaluateCommand() {
                      {"--estimate", "FILE", "trajectory to evaluate, in one of the same formats", true, false, {}},
                      {"--covariance",
                       "FILE",
-                      "covariances of the estimate's poses, for NEES (default: covariance.csv beside it)",
+                      "covariances of the estimate's poses, for NEES (default: covariance.csv in its folder)",
                       false,
                       false,
                       {}},

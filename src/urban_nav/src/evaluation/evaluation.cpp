@@ -33,7 +33,7 @@ Matched match(const urban_nav_input::TrajectoryFile& truth, const urban_nav_inpu
     if (matched) return *matched;
     throw DataError(estimate.path,
                     std::to_string(estimate.poses.size()) + " poses for " + std::to_string(truth.poses.size()) +
-                        " of the truth, and no stamps to tell which belong together",
+                        " of the truth, and no stamps to associate them",
                     "");
   }
   Matched matched = urban_nav_core::associate(truth.trajectory, estimate.trajectory);

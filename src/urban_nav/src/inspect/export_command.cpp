@@ -140,7 +140,7 @@ void writeMaps(Store& store, const Maps& maps, const Arguments& arguments, Writt
 /// Writes the files of `map` into a folder.
 void writeResults(Store& store, const Maps& maps, const Arguments& arguments, Written& written) {
   if (arguments.has("session"))
-    throw UserError("--results", "not with --session", "--results for all sessions, or a format of its own");
+    throw UserError("--results", "not with --session", "--results for all sessions, or a single format");
   const OutputFolder folder(arguments.get("results"));
   const StoredResults results = readResults(store);
   for (const StoredResults::File& file : results.files)

@@ -56,7 +56,7 @@ std::optional<PlacedRow> storedRow(const std::string& evidence, const std::strin
 namespace {
 
 /// Clears the measured cells of a row.
-void forgetMeasurement(std::vector<std::string>& cells) {
+void clearMeasurement(std::vector<std::string>& cells) {
   constexpr std::size_t kCandidate = 5;  // session_a, stamp_a_ns, session_b, stamp_b_ns, probability
   for (std::size_t i = kCandidate; i < cells.size(); ++i) cells[i].clear();
 }
@@ -75,7 +75,7 @@ std::string printStoredClosures(Store& store, const PreviousSessions& sessions, 
       if (!evidence) continue;
       auto row = storedRow(*evidence, names.at(edge.a.session), names.at(edge.b.session), sessions.names);
       if (!row || (as_candidates && urban_nav_store::isOfEdit(edge.source))) continue;
-      if (as_candidates && urban_nav_store::isFoundAnew(edge.kind, edge.source)) forgetMeasurement(row->cells);
+      if (as_candidates && urban_nav_store::isFoundAnew(edge.kind, edge.source)) clearMeasurement(row->cells);
       rows.push_back(std::move(*row));
     }
   }

@@ -26,7 +26,7 @@ const StoredClosure& byNumber(const std::vector<StoredClosure>& closures, std::i
   const auto found =
       std::find_if(closures.begin(), closures.end(), [&](const StoredClosure& closure) { return closure.id == id; });
   if (found == closures.end())
-    throw UserError("--closure", std::to_string(id) + ": there is none",
+    throw UserError("--closure", std::to_string(id) + ": there is no such closure",
                     closures.empty() ? "none: the store holds no closures"
                                      : "1..." + std::to_string(closures.back().id) + ", as listed without it");
   return *found;

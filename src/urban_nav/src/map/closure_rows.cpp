@@ -14,7 +14,8 @@ using urban_nav_core::MetricClosure;
 
 namespace {
 
-// Of a transform without sigma in its file: five times that of loop closure by stereo (paper, section 4.1).
+// Standard deviations of a transform without sigma in its file: five times those of closures by stereo (paper, section
+// 4.1).
 constexpr double kUnknownSigmaM = 0.25, kUnknownSigmaRad = 0.05;
 
 }  // namespace

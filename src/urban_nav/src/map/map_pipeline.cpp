@@ -86,7 +86,8 @@ class MapRun {
       printSource(context_.sessions[i].info, context_.console);
       if (i == 0 && !context_.options.so_far) {
         writeReport(0.0);
-        context_.console.info("report: " + folder_.file("report.html") + " (open it now; it grows as the run goes on)");
+        context_.console.info("report: " + folder_.file("report.html") +
+                              " (open it now; it is updated as stages finish)");
       }
       readers[i].read([this](double share) { updateReport(share); });
     }

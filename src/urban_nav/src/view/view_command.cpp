@@ -31,7 +31,7 @@ std::string listenAddress(const Arguments& arguments) {
   if (!is_four && ::inet_pton(AF_INET6, address.c_str(), &six) != 1)
     throw UserError("--address", address, "one numeric address of this machine: 127.0.0.1, 192.168.1.7, ::1");
   if ((is_four && four.s_addr == INADDR_ANY) || (!is_four && IN6_IS_ADDR_UNSPECIFIED(&six) != 0))
-    throw UserError("--address", address + " stands for all addresses of this machine",
+    throw UserError("--address", address + " means all addresses of this machine",
                     "the address by which the page will be opened");
   return address;
 }

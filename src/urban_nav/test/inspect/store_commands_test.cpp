@@ -44,7 +44,7 @@ int call(std::vector<std::string> words) {
                         static_cast<int>(argv.size()), argv.data());
 }
 
-/// Two folders, each mapped into a store of its own, and both into one.
+/// Two folders, each mapped into a separate store, and both into one.
 class StoreCommands : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {

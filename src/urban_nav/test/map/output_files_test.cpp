@@ -26,7 +26,7 @@ SessionOdometry drive(int frames) {
   return run;
 }
 
-/// Writes the files it is asked for.
+/// Writes the requested files.
 class FileStage final : public Stage {
  public:
   FileStage(std::string name, bool uses_closures, std::vector<std::string> files)

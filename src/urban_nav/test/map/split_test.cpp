@@ -151,7 +151,7 @@ TEST_F(Split, GoesOnWithWheels) {
   EXPECT_EQ(wheelStates(folder.file("out/summary.json")), once);
 }
 
-/// Rows of place recognition: of panoramas, or of keyframes beside them.
+/// Rows of place recognition: of panoramas, or of keyframes in addition.
 template <typename Row>
 std::vector<Row> placeRows(const std::string& store) {
   urban_nav_store::Store file(store, urban_nav_store::Access::Read);

@@ -16,7 +16,7 @@
 
 namespace urban_nav::testing {
 
-/// The command beside this test, in a process of its own that can be killed.
+/// Runs the command in a separate process that can be killed.
 class Child {
  public:
   Child(const std::vector<std::string>& words, const std::string& log) {
@@ -44,7 +44,7 @@ class Child {
              toSeconds(now.tv_sec, 1e-9 * static_cast<double>(now.tv_nsec)) > seconds;
     });
   }
-  /// Kills it as soon as `now` says so.
+  /// Kills the process as soon as `now` returns true.
   std::optional<int> endOr(const std::function<bool()>& now) {
     for (bool killed = false;;) {
       int status = 0;

@@ -7,7 +7,7 @@
 
 namespace urban_nav::testing {
 
-/// Grey image (512x384) of a drawn scene: rectangles and discs at positions of its own, moved by `shift` px.
+/// Grey image (512x384) of a drawn scene: rectangles and discs at random positions, moved by `shift` px.
 inline cv::Mat sceneImage(unsigned scene, int shift = 0) {
   std::mt19937 random(9000 + scene);
   const auto draw = [&random](int below) { return static_cast<int>(random() % static_cast<unsigned>(below)); };

@@ -9,7 +9,7 @@ namespace urban_nav::testing {
 /// Which part of the shared drive a test needs.
 struct DrivePart {
   double begin = 0.0, end = 0.0;         ///< s since its start
-  std::vector<std::string> topics = {};  ///< how the names of its topics begin; /tf_static belongs to every part
+  std::vector<std::string> topics = {};  ///< prefix of its topics; /tf_static belongs to every part
   std::string misplaced = "";            ///< as `simulate --misplace`: FRAME:ROLL,PITCH,YAW (deg); empty: nothing
   int days = 0;                          ///< by so many days later stamps of headers: another session of the same drive
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The command in a process of its own: the address that it prints, its end by a signal, and its refusals.
+// The command in a separate process: the printed address, termination by a signal, and errors.
 #include <gtest/gtest.h>
 
 #include <csignal>

@@ -13,7 +13,7 @@ namespace {
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 // std::from_chars rejects a plus sign and accepts "nan" and "inf".
-bool looksDecimal(std::string_view text) {
+bool isDecimalText(std::string_view text) {
   bool digit = false;
   for (const char c : text) {
     digit = digit || (c >= '0' && c <= '9');
@@ -91,7 +91,7 @@ std::string printNumber(float value) { return shortest(value); }
 void appendNumber(std::string& text, double value) { text += shortest(value); }
 
 std::optional<double> parseNumber(std::string_view text) {
-  if (!looksDecimal(text)) return std::nullopt;
+  if (!isDecimalText(text)) return std::nullopt;
   const auto value = decimal(withoutPlus(text));
   if (!value || !std::isfinite(*value)) return std::nullopt;
   return *value;

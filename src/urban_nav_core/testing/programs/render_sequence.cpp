@@ -131,12 +131,12 @@ void render(const Request& request) {
   const int frames = std::max(1, static_cast<int>(std::lround(request.seconds * request.rate)));
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
   const int step = terminal ? 5 : std::max(1, (frames + 3) / 4);
-  const auto say = [&](int i) {
+  const auto report_progress = [&](int i) {
     if (i % step == 0)
       std::cerr << (terminal ? "\r" : "") << "frame " << i << " of " << frames << (terminal ? "" : "\n") << std::flush;
   };
   const int written =
-      writeSequenceFolder(sequence, frames, FaultFilter(request.faults, request.seed), request.folder, say);
+      writeSequenceFolder(sequence, frames, FaultFilter(request.faults, request.seed), request.folder, report_progress);
   std::cerr << (terminal ? "\r" : "") << written << " frames in " << request.folder << (terminal ? "        " : "")
             << "\n";
 }

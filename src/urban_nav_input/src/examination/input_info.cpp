@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "recording/bag_order.hpp"
-#include "urban_nav_input/recording/connection_definition.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/trajectory/statistics.hpp"
 #include "urban_nav_input/folder/euroc_layout.hpp"
@@ -18,6 +17,7 @@
 #include "urban_nav_input/folder/kitti_sweeps.hpp"
 #include "urban_nav_input/folder/new_college_files.hpp"
 #include "urban_nav_input/folder/new_college_log.hpp"
+#include "urban_nav_input/recording/connection_definition.hpp"
 #include "urban_nav_input/recording/recording.hpp"
 #include "urban_nav_input/session/open.hpp"
 #include "urban_nav_input/truth/truth.hpp"
@@ -163,7 +163,7 @@ void addKittiStreams(const std::string& path, InputInfo& info) {
   info.streams.push_back(toStream(sweeps->name, "sweeps", stamps));
 }
 
-void lookIntoFolder(const std::string& path, InputKind kind, InputInfo& info) {
+void examineFolder(const std::string& path, InputKind kind, InputInfo& info) {
   std::vector<StampNs> stamps;
   SourceOptions options;
   options.with_sweeps = true;
@@ -195,7 +195,7 @@ void lookIntoFolder(const std::string& path, InputKind kind, InputInfo& info) {
   }
 }
 
-void lookIntoNewCollege(const std::string& path, InputInfo& info) {
+void examineNewCollege(const std::string& path, InputInfo& info) {
   const NewCollegeFiles files = findNewCollege(path);
   std::vector<StampNs> stamps;
   for (const NewCollegeFiles::Pair& pair : files.stereo) stamps.push_back(pair.stamp);
@@ -232,12 +232,12 @@ InputInfo lookInto(const std::string& path) {
     case InputKind::Bag: readBagInfo(path, info); break;
     case InputKind::NewCollegeFolder:
       info.kind = "New College folder";
-      lookIntoNewCollege(path, info);
+      examineNewCollege(path, info);
       break;
     case InputKind::KittiFolder:
     case InputKind::EurocFolder:
       info.kind = kind == InputKind::KittiFolder ? "KITTI folder" : "EuRoC folder";
-      lookIntoFolder(path, kind, info);
+      examineFolder(path, kind, info);
       break;
   }
   return info;

@@ -24,7 +24,7 @@ constexpr int kFewFeatures = 100;                                 // per image; 
 constexpr int kFewMatches = 15;                                   // on neighbouring rows, for a pair of the same scene
 constexpr double kMaxRowError = 20.0, kSameRow = 1.5;             // px
 constexpr double kOffsetTolerance = 0.8, kCornerTolerance = 1.6;  // px: above, stereo along rows loses features
-constexpr double kAlikeRows = 4.0, kLeastAlike = 0.3;             // px; share of matches
+constexpr double kConsistentRows = 4.0, kLeastConsistent = 0.3;   // px; share of matches
 constexpr double kMaxScatter = 1.3;                               // px, root mean square
 constexpr int kMinPairs = 3;
 
@@ -88,8 +88,8 @@ void PairCheck::add(const ImageView& left, const ImageView& right, const ImageVi
   // Matches of the same scene have similar row errors, wrong matches have random ones.
   const double row = rows.empty() ? 0.0 : medianValue(rows);
   const auto alike =
-      std::count_if(rows.begin(), rows.end(), [row](double dv) { return std::abs(dv - row) < kAlikeRows; });
-  if (alike < kFewMatches || static_cast<double>(alike) < kLeastAlike * static_cast<double>(rows.size())) {
+      std::count_if(rows.begin(), rows.end(), [row](double dv) { return std::abs(dv - row) < kConsistentRows; });
+  if (alike < kFewMatches || static_cast<double>(alike) < kLeastConsistent * static_cast<double>(rows.size())) {
     ++unmatched_;
   } else {
     for (const Match& pair : found)

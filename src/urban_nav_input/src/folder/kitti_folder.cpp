@@ -143,7 +143,7 @@ class KittiFolder : public Source {
         }
         size_ = image.pixels.size();
         calibrate(calibration);
-        lookAtDepth();
+        findDepth();
         return;
       }
     }
@@ -151,7 +151,7 @@ class KittiFolder : public Source {
   }
 
   /// Determines the common grey range of both cameras from the first images of each.
-  void lookAtDepth() {
+  void findDepth() {
     constexpr std::size_t kSampledImages = 20;
     std::vector<std::string> paths;
     for (const std::map<std::int64_t, std::string>* side : {&frames_.left, &frames_.right}) {

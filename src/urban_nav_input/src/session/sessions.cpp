@@ -117,7 +117,7 @@ std::vector<InputSession> findSessions(const std::vector<std::string>& inputs, c
     });
     if (rule == SessionRule::Auto && simultaneous != earlier.end())
       sessions[first].note = "holds images of the same topics at the same time as " + simultaneous->path +
-                             ": a session of its own (--set input.sessions=together if they are one recording)";
+                             ": a separate session (--set input.sessions=together if they are one recording)";
     for (const BagExtent& bag : recording)
       if (const auto copy = copies.find(bag.path); copy != copies.end())
         sessions[first].note += (sessions[first].note.empty() ? "" : "; ") + copy->second;

@@ -19,9 +19,9 @@ namespace urban_nav_localization {
 struct MapKeyframe {
   urban_nav_store::SessionId session;
   urban_nav_core::StampNs stamp = 0;
-  /// Of base_link; of a converted keyframe, of the robot that would have taken it (KeyframeConversion).
+  /// Pose of base_link. For a converted keyframe: of the robot with its camera and mounting (KeyframeConversion).
   urban_nav_core::Pose T_map_base;
-  /// To the camera of the drive; null if it is the same one.
+  /// Conversion to the camera of the drive; null if the cameras are equal.
   std::shared_ptr<const urban_nav_registration::KeyframeConversion> conversion = nullptr;
 };
 

@@ -69,10 +69,10 @@ urban_nav_live::StageReport makeReport(const StageState& state) {
   report.add("stereo pairs without odometry", localiser.keyframes.without_odometry);
   report.add("images damaged", state.damaged_images);
   report.add("initial poses taken", localiser.initial_poses);
-  report.add("initial poses refused", state.initial_poses_refused);
+  report.add("initial poses rejected", state.initial_poses_refused);
   report.add("restarts", localiser.restarts);
   report.add("dropped: keyframes that waited", localiser.dropped_keyframes);
-  report.add("steps of odometry refused", localiser.refused_steps);
+  report.add("steps of odometry rejected", localiser.refused_steps);
   report.add("camera", state.camera);
   return report;
 }

@@ -43,7 +43,7 @@ std::string toBytes(const std::string& path) {
   return bytes.str();
 }
 
-/// A robot on its second day, which listens to what localisation says.
+/// Robot on a second day that subscribes to the topics of localization.
 class Visitor : public DrivingRobot {
  public:
   explicit Visitor(urban_nav_core::testing::RenderedSequence sequence)
@@ -203,7 +203,7 @@ TEST_F(LocalizationNodelet, AnInitialPoseIsNeitherNeededNorAcceptedAgainstMatche
   ASSERT_TRUE(DrivingRobot::until([&] { return robot.isConnected(); }));
   const Pose wrong = T_map_world() * robot.T_world_base(kLap / 2);
   robot.applyInitialPose(wrong, "odom");
-  ASSERT_TRUE(DrivingRobot::until([&] { return robot.diagnosed("initial poses refused", "1"); }));
+  ASSERT_TRUE(DrivingRobot::until([&] { return robot.diagnosed("initial poses rejected", "1"); }));
   robot.applyInitialPose(wrong);
   ASSERT_TRUE(DrivingRobot::until([&] { return robot.diagnosed("initial poses taken", "1"); }));
   robot.drive(0, 2, false);

@@ -37,7 +37,7 @@ class ScanningVisitor : public Scanning {
   std::vector<LocalizationState> states;
 };
 
-/// The way there, with what the lasers saw; no view that could be recognised.
+/// Writes a map of the outward drive with laser scans, without keyframes that could be recognised.
 void makeMap(const std::string& path) {
   Store store(path, urban_nav_store::Access::Write);
   const urban_nav_store::Session session{

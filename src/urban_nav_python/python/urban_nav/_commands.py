@@ -62,7 +62,7 @@ def _run(command, positional, options, progress=None):
 
 
 def _with_json(command, positional, options, progress=None):
-    """Runs a command and returns what it writes for --json."""
+    """Runs a command and returns its output of --json."""
     with tempfile.TemporaryDirectory(prefix="urban_nav-") as folder:
         path = options.get("json") or os.path.join(folder, "summary.json")
         _run(command, positional, {**options, "json": path}, progress)

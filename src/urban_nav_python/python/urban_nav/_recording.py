@@ -61,7 +61,7 @@ class Recording:
 
     @property
     def warnings(self):
-        """What is missing or damaged in the files, as far as it was met by now: a list of sentences."""
+        """Missing or damaged parts of the files that were read so far, as a list of sentences."""
         return self._reader.warnings()
 
     def messages(self, topics=None, start_ns=None, end_ns=None, order="file", raw=False):

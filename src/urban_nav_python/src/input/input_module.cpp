@@ -78,7 +78,7 @@ class OpenRecording {
   std::map<const Connection*, Entry> decoders_;
 };
 
-/// Which messages a caller wants, and how.
+/// Messages that a caller selects, and their form.
 struct Wishes {
   std::optional<std::vector<std::string>> topics;
   std::optional<StampNs> begin, end;
@@ -163,7 +163,7 @@ class MessageIterator {
     }
   }
 
-  /// A topic that was asked for must be there; of all topics, those that cannot be decoded are warned of.
+  /// Throws for a topic that was requested by name; otherwise warns once per topic that cannot be decoded.
   py::object leaveOut(const RecordedMessage& message, const std::string& reason) {
     const std::string text = "topic " + message.topic() + " cannot be decoded: " + reason;
     if (is_named_) throw urban_nav_core::DataError(message.path(), text, "raw=True, which returns the encoded bytes");
@@ -194,8 +194,8 @@ class MessageIterator {
   std::shared_ptr<OpenRecording> recording_;
   MessageSelection selection_;
   bool is_raw_, is_named_, is_sorted_;
-  std::vector<RecordedMessage> all_;                     // if they are sorted
-  std::vector<std::pair<StampNs, std::size_t>> order_;   // stamp and index in all_
+  std::vector<RecordedMessage> all_;                    // if they are sorted
+  std::vector<std::pair<StampNs, std::size_t>> order_;  // stamp and index in all_
   std::size_t next_ = 0;
   std::vector<std::string> warned_;
   const Connection* connection_ = nullptr;  // the last message's
@@ -205,7 +205,7 @@ class MessageIterator {
 }  // namespace
 
 PYBIND11_MODULE(_input, module) {
-  module.doc() = "Reads recordings; urban_nav.Recording is what users see.";
+  module.doc() = "Reads recordings; the public class is urban_nav.Recording.";
   registerErrors();
   py::class_<MessageIterator>(module, "MessageIterator")
       .def("__iter__", [](py::object self) { return self; })

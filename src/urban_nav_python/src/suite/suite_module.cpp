@@ -98,7 +98,7 @@ int run(const std::string& name, const urban_nav::NamedArguments& arguments, py:
 }  // namespace
 
 PYBIND11_MODULE(_suite, module) {
-  module.doc() = "Runs commands and estimators of the suite; the functions of urban_nav are what users see.";
+  module.doc() = "Runs commands and estimators of the suite; the public functions are those of urban_nav.";
   registerErrors();
   module.def("run", &run, py::arg("name"), py::arg("arguments"), py::arg("on_line"), py::arg("on_progress"));
   addStore(module);

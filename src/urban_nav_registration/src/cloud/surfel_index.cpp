@@ -10,7 +10,7 @@
 namespace urban_nav_registration {
 
 namespace {
-constexpr float kAlikeSurface = 0.70710678F;  // cosine of 45 deg, to exclude surfaces across
+constexpr float kSimilarSurface = 0.70710678F;  // cosine of 45 deg, to exclude surfaces across
 
 constexpr std::uint32_t kSurfelLanes = 4;  // surfels compared at once
 
@@ -59,7 +59,7 @@ SurfelIndex::Nearest SurfelIndex::nearest(const Eigen::Vector3f& point, const Ei
   const cv::v_float32x4 x0 = cv::v_setall_f32(point.x()), y0 = cv::v_setall_f32(point.y()),
                         z0 = cv::v_setall_f32(point.z()), nx = cv::v_setall_f32(normal.x()),
                         ny = cv::v_setall_f32(normal.y()), nz = cv::v_setall_f32(normal.z()),
-                        least_alike = cv::v_setall_f32(kAlikeSurface);
+                        least_cosine = cv::v_setall_f32(kSimilarSurface);
   const Surfel* best = nullptr;
   float least = reach_ * reach_, second = least;
   for (const int bits : kNearestFirst) {
@@ -77,7 +77,7 @@ SurfelIndex::Nearest SurfelIndex::nearest(const Eigen::Vector3f& point, const Ei
       const cv::v_float32x4 dx = lane(0) - x0, dy = lane(1) - y0, dz = lane(2) - z0;
       const cv::v_float32x4 squares = dx * dx + dy * dy + dz * dz;
       const cv::v_float32x4 alike = cv::v_abs(lane(3) * nx + lane(4) * ny + lane(5) * nz);
-      const int near = cv::v_signmask((squares < cv::v_setall_f32(second)) & (alike > least_alike));
+      const int near = cv::v_signmask((squares < cv::v_setall_f32(second)) & (alike > least_cosine));
       if (near == 0) continue;
       std::array<float, kSurfelLanes> distances;
       cv::v_store(distances.data(), squares);

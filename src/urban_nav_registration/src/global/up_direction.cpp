@@ -9,7 +9,7 @@ namespace urban_nav_registration {
 namespace {
 
 constexpr float kHalfTurnF = 3.14159265F;
-constexpr float kAlikeNormal = 0.985F;  // cosine of 10 deg
+constexpr float kSimilarNormal = 0.985F;  // cosine of 10 deg
 
 /// Returns the sum of planarity of normals within a cone around `axis`, and their mean direction.
 std::pair<float, Eigen::Vector3f> within(const Surfels& surfels, const Eigen::Vector3f& axis, float cosine) {
@@ -36,7 +36,7 @@ UpDirection estimateUpDirection(const Surfels& surfels) {
       const float azimuth = 2.0F * kHalfTurnF * static_cast<float>(place) / static_cast<float>(places);
       const Eigen::Vector3f axis(std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth),
                                  std::cos(tilt));
-      const float weight = within(surfels, axis, kAlikeNormal).first;
+      const float weight = within(surfels, axis, kSimilarNormal).first;
       if (weight <= best) continue;
       best = weight;
       upright.up = axis;
@@ -44,14 +44,14 @@ UpDirection estimateUpDirection(const Surfels& surfels) {
   }
   if (!(best > 0.0F)) return upright;
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3f sum = within(surfels, upright.up, kAlikeNormal).second;
+    const Eigen::Vector3f sum = within(surfels, upright.up, kSimilarNormal).second;
     if (sum.norm() > 0.0F) upright.up = sum.normalized();
   }
   // Fullest layer of 0.4 m, in steps of half of that.
   constexpr float kLayer = 0.2F, kNear = 20.0F;
   std::vector<float> layers(400, 0.0F);
   for (const Surfel& surfel : surfels.all) {
-    if (std::abs(surfel.normal.dot(upright.up)) < kAlikeNormal || surfel.mean.norm() > kNear) continue;
+    if (std::abs(surfel.normal.dot(upright.up)) < kSimilarNormal || surfel.mean.norm() > kNear) continue;
     const float at = surfel.mean.dot(upright.up) / kLayer + 200.0F;
     if (at >= 0.0F && at < 400.0F) layers[static_cast<std::size_t>(at)] += surfel.planarity;
   }

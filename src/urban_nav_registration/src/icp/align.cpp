@@ -245,14 +245,14 @@ Alignment searched(const Pair& pair, const Pose& guess, Alignment alignment, con
       reject(alignment, AlignmentReason::Impossible, "no possible pose found");
     return alignment;
   }
-  const Alignment first_judged = judged(*found, pair, std::nullopt, alignment);
+  const Alignment first_validated = judged(*found, pair, std::nullopt, alignment);
   const auto second = std::find_if(found + 1, tries.end(), [&](const Try& attempt) {
-    return isAnother(attempt.refined.T_target_source, first_judged) && is_possible(attempt);
+    return isAnother(attempt.refined.T_target_source, first_validated) && is_possible(attempt);
   });
   const double share = second == tries.end() ? 0.0 : second->fit.score() / std::max(found->fit.score(), 1e-9);
   alignment = share < kNear || pair.is_planar
                   ? judged(*found, pair, searchEvidence(*found, share, pair), alignment, share < kNear)
-                  : first_judged;
+                  : first_validated;
   alignment.searched = true;
   if (second != tries.end()) alignment.alternative = Alternative{second->refined.T_target_source, share};
   alignment.tests.push_back({"second_pose", share, pair.parameters.max_second_best_ratio, false,

@@ -10,7 +10,7 @@ using urban_nav_core::ClosureVerdict;
 namespace {
 
 constexpr double kFewUpright = 20.0;  // surfels: with fewer the share is not significant
-constexpr double kUprightMisfit =
+constexpr double kUprightResidualFactor =
     2.5;  // times max_residual_ratio: voxels blur the edges of facades differently from each viewpoint
 constexpr double kEnoughAlone =
     0.67;  // of min_vertical_inliers, without alternatives: of leaves and crowds a third coincides
@@ -84,7 +84,7 @@ void reject(Alignment& alignment, AlignmentReason reason, const std::string& sen
 bool isPlausible(const ValidationContext& plausibility, const Parameters& parameters) {
   if (!plausibility.seen_through) return plausibility.misfit <= parameters.max_unmodelled_residual_ratio;
   return plausibility.misfit <= parameters.max_residual_ratio &&
-         plausibility.upright_misfit <= kUprightMisfit * parameters.max_residual_ratio &&
+         plausibility.upright_misfit <= kUprightResidualFactor * parameters.max_residual_ratio &&
          *plausibility.seen_through <= parameters.max_free_space_violation;
 }
 
@@ -108,7 +108,7 @@ void judge(const Fit& fit, const std::optional<ValidationContext>& plausibility,
   if (plausibility && plausibility->seen_through) {
     test("misfit", plausibility->misfit, parameters.max_residual_ratio, false, AlignmentReason::Misfit,
          "residuals of the surfaces exceed noise and odometry drift");
-    test("upright_misfit", plausibility->upright_misfit, kUprightMisfit * parameters.max_residual_ratio, false,
+    test("upright_misfit", plausibility->upright_misfit, kUprightResidualFactor * parameters.max_residual_ratio, false,
          AlignmentReason::Misfit, "residuals of the vertical surfaces exceed noise and odometry drift");
     test("seen_through", *plausibility->seen_through, parameters.max_free_space_violation, false,
          AlignmentReason::SeenThrough, "beams of one cloud passed through surfaces of the other");

@@ -28,7 +28,7 @@ namespace {
 constexpr int kFewestAgreeing = 8;  // pairs; false motions usually have fewer inliers, and the others are rejected by
                                     // the patches
 constexpr std::size_t kMostMotions = 4;
-constexpr double kConvincingLikeness =
+constexpr double kSufficientCorrelation =
     0.65;                              // bench, pairs: never reached by a wrong motion; ends the search for motions
 constexpr double kMatchGate = 1.75;    // times the allowed mean error; larger residuals are outliers
 constexpr std::size_t kKeptViews = 8;  // about 1 MB each at 512x384
@@ -184,7 +184,7 @@ class StereoMatcher::Implementation {
         best = std::move(its);
         closure.consensus = motion.inliers;
       }
-      if (best.aligned.likeness >= kConvincingLikeness) break;
+      if (best.aligned.likeness >= kSufficientCorrelation) break;
       pairs = std::move(motion.others);
     }
     return best;

@@ -11,14 +11,14 @@ namespace {
 
 constexpr float kRouteCell = 0.5F;  // m
 constexpr double kApart = 0.5;      // m, between the positions whose surroundings are marked
-constexpr double kLook = 0.05;      // s
+constexpr double kSampling = 0.05;  // s
 
 /// Returns positions along the path, about half a metre apart.
 std::vector<Eigen::Vector2d> samplePositions(const Motion& motion) {
   std::vector<Eigen::Vector2d> places;
-  const auto steps = static_cast<int>(std::ceil(motion.duration() / kLook));
+  const auto steps = static_cast<int>(std::ceil(motion.duration() / kSampling));
   for (int i = 0; i <= steps; ++i) {
-    const Eigen::Vector2d here = motion.at(std::min(i * kLook, motion.duration())).T_world_base.t().head<2>();
+    const Eigen::Vector2d here = motion.at(std::min(i * kSampling, motion.duration())).T_world_base.t().head<2>();
     if (places.empty() || (here - places.back()).norm() > kApart || i == steps) places.push_back(here);
   }
   return places;

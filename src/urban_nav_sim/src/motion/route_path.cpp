@@ -60,7 +60,7 @@ RoutePath::RoutePath(const Route& route, double length) {
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
     whole += (waypoints[i].position - waypoints[i - 1].position).norm();
   }
-  if (whole < 0.5) throw urban_nav_core::UserError("route " + route.name, "leads nowhere", "at least 0.5 m of way");
+  if (whole < 0.5) throw urban_nav_core::UserError("route " + route.name, "leads nowhere", "at least 0.5 m of path");
 
   Order order(waypoints);
   points_.push_back(order.start().position);

@@ -16,7 +16,7 @@ constexpr double kPole = 4.0, kDamping = 0.7;
 constexpr double kStiffness = kFallAcceleration + kPole * kPole * kLength;  // m/s^2 per rad
 constexpr double kBrake = 2.0 * kDamping * kPole * kLength;                 // m/s^2 per rad/s
 constexpr double kSpeedGain = 1.1;                                          // 1/s: acceleration per error of speed
-constexpr double kMostLean = 0.09;                                          // rad: 0.9 m/s^2
+constexpr double kMostTilt = 0.09;                                          // rad: 0.9 m/s^2
 constexpr double kTurnLag = 0.18;                                           // s
 constexpr double kMostTurnChange = 3.0;                                     // rad/s^2
 
@@ -39,7 +39,7 @@ SegwayState stepSegway(const SegwayState& state, const SegwayCommand& command, c
   const double wanted =
       kSpeedGain * (command.speed - state.speed) / kFallAcceleration * (kStiffness - kFallAcceleration) / kStiffness;
   const double foot = wheelOffset(disturbance.slope);
-  const double lean = std::clamp(wanted, -kMostLean, kMostLean) + foot;
+  const double lean = std::clamp(wanted, -kMostTilt, kMostTilt) + foot;
   const double acceleration = kStiffness * (state.pitch - lean) + kBrake * state.pitch_rate;
   const double fall = kFallAcceleration * (std::sin(state.pitch) - foot) - acceleration * std::cos(state.pitch);
 

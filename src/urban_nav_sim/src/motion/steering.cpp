@@ -37,9 +37,9 @@ SteeringModel::SteeringModel(const RoutePath& way, double start, double wander, 
 
 // Beyond a stop the path continues straight, so that the robot arrives in its direction.
 Eigen::Vector2d SteeringModel::wantedPlace(double s, double stop) const {
-  const double on_way = std::min(s, stop - 1e-6);
-  const Eigen::Vector2d forward = way_.direction(on_way), left(-forward.y(), forward.x());
-  return way_.at(on_way) + (s - on_way) * forward + wander_ * smoothNoise(sideways_, s / 3.0) * left;
+  const double on_path = std::min(s, stop - 1e-6);
+  const Eigen::Vector2d forward = way_.direction(on_path), left(-forward.y(), forward.x());
+  return way_.at(on_path) + (s - on_path) * forward + wander_ * smoothNoise(sideways_, s / 3.0) * left;
 }
 
 // Finds the nearest position on the path ahead, the later of two equally near ones (at a cut corner).

@@ -46,7 +46,7 @@ void setTransform(RTCGeometry instance, unsigned step, const urban_nav_core::Pos
   rtcSetGeometryTransform(instance, step, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix.data());
 }
 
-/// Returns the final pose of a mover for Embree, which interpolates the matrices of both ends; those of a walker who
+/// Returns the final pose of a mover for Embree, which interpolates the matrices of both ends; those of a walker that
 /// turns on the spot would cancel, so its rotation is kept.
 urban_nav_core::Pose shortestTurnEnd(const urban_nav_core::Pose& begin, const urban_nav_core::Pose& end) {
   constexpr double kAbout = 1.0;  // rad: a car in a bend rotates by a hundredth of it

@@ -55,8 +55,8 @@ void Release::operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }
 
 Tracer::Tracer(const World& world) : world_(world), device_(rtcNewDevice(nullptr)) {
   if (device_ == nullptr) throw urban_nav_core::UserError("ray tracer", "Embree does not start", "");
-  // Of two triangles at one distance the tree determines the one hit, and a tree built by several threads depends on
-  // their number.
+  // If two triangles are at the same distance, the hit depends on the tree, and a tree built by several threads depends
+  // on their number.
   const urban_nav_core::ThreadLimit one(1);
   std::size_t triangles = 0;
   for (const Part& part : world.parts) triangles += part.triangles.size();

@@ -28,10 +28,10 @@ using urban_nav_core::UserError;
 namespace {
 
 constexpr StampNs kFirstDay = 1'225'719'873'000'000'000;  // of the New College set: 3 November 2008
-constexpr double kDefaultScale = 1.01;  // of the baseline that camera_info states
+constexpr double kDefaultScale = 1.01;                    // of the baseline that camera_info states
 constexpr StampNs kOneDay = 86'400'000'000'000;
 
-bool seesTheWorld(Sensor sensor) {
+bool isRendered(Sensor sensor) {
   return sensor == Sensor::Stereo || sensor == Sensor::Ladybug || sensor == Sensor::Lasers || sensor == Sensor::Lidar3d;
 }
 
@@ -40,7 +40,7 @@ const SessionOptions& checked(const SessionOptions& options) {
   if (std::find(worlds.begin(), worlds.end(), options.world) == worlds.end())
     throw UserError(options.where + "world", options.world, urban_nav_core::joined(worlds));
   for (const Sensor sensor : options.views)
-    if (!seesTheWorld(sensor) || options.sensors.count(sensor) == 0)
+    if (!isRendered(sensor) || options.sensors.count(sensor) == 0)
       throw UserError(options.where + "views", std::string("views of \"") + toString(sensor) + "\"",
                       "stereo, ladybug, lasers, lidar3d, if among the sensors");
   return options;
@@ -79,7 +79,7 @@ class Session::Implementation {
     if (has(Sensor::Imu)) addImu();
     if (has(Sensor::Wheels)) addWheels();
     if (has(Sensor::Gps)) addGps();
-    if (std::any_of(options_.sensors.begin(), options_.sensors.end(), seesTheWorld)) addEyes();
+    if (std::any_of(options_.sensors.begin(), options_.sensors.end(), isRendered)) addEyes();
   }
 
   std::optional<Arrival> next() {

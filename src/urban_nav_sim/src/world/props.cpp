@@ -35,8 +35,8 @@ std::function<Pose(double)> toAndFro(const std::vector<Vector2d>& line, double s
 }
 
 /// Motion from one position to the other and back underground, out of view of every sensor; for ends out of sight.
-std::function<Pose(double)> oneWay(const Vector2d& from, const Vector2d& to, double speed, double phase,
-                                   const std::function<double(double, double)>& ground) {
+std::function<Pose(double)> straightMotion(const Vector2d& from, const Vector2d& to, double speed, double phase,
+                                           const std::function<double(double, double)>& ground) {
   constexpr double kDepth = 8.0;  // m
   const double length = (to - from).norm();
   const Vector2d along = (to - from) / length;
@@ -198,7 +198,7 @@ void sendTraffic(Site& site, const Vector2d& from, const Vector2d& to, double sp
     const std::uint64_t seed = draw.bits();
     site.beginMover();
     makeCar(site, seed % 5 == 0, seed);
-    site.release(oneWay(from, to, speed, first + static_cast<double>(i) / cars, site.world().ground));
+    site.release(straightMotion(from, to, speed, first + static_cast<double>(i) / cars, site.world().ground));
   }
 }
 

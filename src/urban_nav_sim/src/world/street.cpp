@@ -67,7 +67,7 @@ void buildTerrace(Site& site, const StreetPlan& p, double x0, double y0, bool fa
   }
 }
 
-void layPavement(Site& site, const Extent& e) {
+void addPavement(Site& site, const Extent& e) {
   const Finish slabs{MaterialKind::Slabs, 0, 3}, kerb{MaterialKind::Kerb, 0, 3};
   const double h = 0.5 * kPavement, height = 0.11;
   layStrip(site, slabs, kerb, {e.x0, e.y0 + h}, {e.x1, e.y0 + h}, kPavement, height);
@@ -85,9 +85,9 @@ void buildBlocks(Site& site, const StreetPlan& p, std::uint32_t seed) {
     buildTerrace(site, p, x0, kFace, true, 4 * row + 1, seed);
     buildTerrace(site, p, x0, p.second - kFace - kDepth, false, 4 * row + 2, seed);
     buildTerrace(site, p, x0, p.second + kFace, true, 4 * row + 3, seed);
-    layPavement(site, {x0 - kPavement, -kFace - kDepth - kPavement, x1 + kPavement, -kHalfStreet});
-    layPavement(site, {x0 - kPavement, kHalfStreet, x1 + kPavement, p.second - kHalfStreet});
-    layPavement(site, {x0 - kPavement, p.second + kHalfStreet, x1 + kPavement, p.second + kFace + kDepth + kPavement});
+    addPavement(site, {x0 - kPavement, -kFace - kDepth - kPavement, x1 + kPavement, -kHalfStreet});
+    addPavement(site, {x0 - kPavement, kHalfStreet, x1 + kPavement, p.second - kHalfStreet});
+    addPavement(site, {x0 - kPavement, p.second + kHalfStreet, x1 + kPavement, p.second + kFace + kDepth + kPavement});
     // Yards at the rear of the houses, with walls, hedges and a tree.
     const double y0 = kFace + kDepth, y1 = p.second - kFace - kDepth;
     for (const double x : {x0 + 0.2, x1 - 0.2})

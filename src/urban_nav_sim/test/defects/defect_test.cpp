@@ -50,7 +50,7 @@ TEST(Defects, AllStandsForSensorsAndForUsualDefects) {
   EXPECT_FALSE(defects.has(Sensor::Stereo, Defect::Lens));  // a pair of another kind, not one with more errors
 }
 
-/// What is wrong is named, and what there is.
+/// Errors state the wrong value and the allowed ones.
 void expectDefectError(const std::string& word, const std::string& found, const std::string& allowed) {
   try {
     Defects().switchOff(word, "--without");

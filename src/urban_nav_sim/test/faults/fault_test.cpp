@@ -21,7 +21,7 @@ TEST(Fault, IsReadAsTheCommandLineHasIt) {
   EXPECT_FALSE(fault.isActive(15.5));
 }
 
-/// What is wrong is named, and what there is.
+/// Errors state the wrong value and the allowed ones.
 void expectFaultError(const std::string& text, const std::string& found, const std::string& allowed) {
   try {
     parseFault(text);

@@ -26,7 +26,7 @@ class Straight : public Motion {
   }
 };
 
-/// How far the worst place of a triangle is from the nearest sample.
+/// Returns the largest distance of a point of a triangle from the nearest sample.
 float largestHole(const Vector3f& a, const Vector3f& b, const Vector3f& c, float spacing) {
   std::vector<Vector3f> samples;
   sampleTriangle(a, b, c, spacing, [&](const Vector3f& w) {

@@ -11,7 +11,7 @@
 namespace urban_nav_sim {
 namespace {
 
-// Tests run in the folder of the package. What differs is written anew by the build target urban_nav_sim_documents.
+// Tests run in the folder of the package. The build target urban_nav_sim_documents regenerates files that differ.
 TEST(SimulatorParameters, ThePackagesDocumentShowsTheTable) {
   const std::string document = urban_nav_core::findParameterDocument(".");
   const std::string text = urban_nav_core::readTextFile(document);

@@ -31,10 +31,10 @@ TEST(Segway, StandsOnSlopesAsWell) {
 }
 
 TEST(Segway, CatchesItselfFromALean) {
-  SegwayState leaning;
-  leaning.pitch = 0.1;
-  EXPECT_GT(driven(leaning, {}, {}, 0.3).speed, 0.05);  // drives under itself
-  const SegwayState later = driven(leaning, {}, {}, 10.0);
+  SegwayState tilted;
+  tilted.pitch = 0.1;
+  EXPECT_GT(driven(tilted, {}, {}, 0.3).speed, 0.05);  // drives under itself
+  const SegwayState later = driven(tilted, {}, {}, 10.0);
   EXPECT_NEAR(later.pitch, 0.0, 1e-3);
   EXPECT_NEAR(later.speed, 0.0, 2e-3);
 }

@@ -47,7 +47,7 @@ Route circle() {
   for (int i = 0; i <= 60; ++i) places.push_back({8 * std::sin(i * M_PI / 30), 8 - 8 * std::cos(i * M_PI / 30)});
   return routeThrough(places, 1.6);
 }
-// Corners of 60 to 150 deg, two metres apart: the hardest that a gardener would lay out.
+// Corners of 60 to 150 deg, two metres apart: the sharpest route of the test.
 Route zigzag() {
   return routeThrough({{0, 0}, {2, 0}, {2, 2}, {3, 0.5}, {5, 0.5}, {3.2, 1.0}, {3, 4}, {0, 4}, {0, 0}});
 }
@@ -270,7 +270,7 @@ TEST(MakeRide, DependsOnTheSeedAndOnNothingElse) {
   const auto other = simulateDrive(hillyWorld(), loop(), optionsFor(30.0, 6));
   EXPECT_EQ(a->at(17.3).T_world_base.t(), b->at(17.3).T_world_base.t());
   EXPECT_GT((a->at(17.3).T_world_base.t() - other->at(17.3).T_world_base.t()).norm(), 0.01);
-  // What comes later does not change what was before.
+  // Later parts of a route do not change earlier ones.
   const auto longer = simulateDrive(hillyWorld(), loop(), optionsFor(60.0, 5));
   EXPECT_EQ(a->at(17.3).T_world_base.t(), longer->at(17.3).T_world_base.t());
 }

@@ -8,7 +8,7 @@ namespace {
 
 using urban_nav_core::Vector3d;
 
-/// Where a sensor's axis points on the robot.
+/// Returns the direction of a sensor's axis in base_link.
 Vector3d axis(const std::string& frame, const Vector3d& a) { return sensorPose(frame).q() * a; }
 
 TEST(Places, CamerasLookForwardAndRoundTheHorizon) {

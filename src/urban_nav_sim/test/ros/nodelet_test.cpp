@@ -31,7 +31,7 @@ SessionOptions sameSession() {
   return options;
 }
 
-/// What a message says, but for header.seq, which the publisher counts.
+/// Returns the content of a message without header.seq, which the publisher sets.
 template <typename Message>
 std::vector<std::uint8_t> toBytes(Message message) {
   message.header.seq = 0;

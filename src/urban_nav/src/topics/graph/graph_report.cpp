@@ -19,7 +19,7 @@ using urban_nav_core::Trajectory;
 namespace {
 
 constexpr std::size_t kMostRows = 500;  // closures in the table
-constexpr double kBoasts = 1.5;         // ratio of actual to stated standard deviation above which it is reported
+constexpr double kOverconfident = 1.5;  // ratio of actual to stated standard deviation above which it is reported
 constexpr std::array<const char*, 4> kColours = {"a", "c", "d", "b"};
 
 std::string count(std::size_t n, const char* noun) { return std::to_string(n) + " " + noun + (n == 1 ? "" : "s"); }
@@ -139,7 +139,7 @@ std::optional<PageTable> errorsTable(const GraphRun& graph, const std::vector<Se
 constexpr double kGraphDegrees = 180.0 / 3.14159265358979323846;
 
 /// Returns the tilt of the first pose, deg.
-double leanDeg(const pose_graph::Level& level) { return kGraphDegrees * std::acos(std::min(1.0, level.up.z())); }
+double tiltDeg(const pose_graph::Level& level) { return kGraphDegrees * std::acos(std::min(1.0, level.up.z())); }
 
 constexpr double kSureLevelDeg = 0.5;  // largest standard deviation of a map reported as level
 
@@ -150,7 +150,7 @@ Verdict levelVerdict(const pose_graph::Level& level) {
   const bool is_sure = kGraphDegrees * level.sigma < kSureLevelDeg;
   return {is_sure ? Grade::Good : Grade::Fair,
           is_sure ? "The map is level." : "The map is level within its uncertainty.",
-          "The first pose is tilted by " + urban_nav_core::formatNumber(leanDeg(level), 2) +
+          "The first pose is tilted by " + urban_nav_core::formatNumber(tiltDeg(level), 2) +
               " deg (standard deviation " + urban_nav_core::formatNumber(kGraphDegrees * level.sigma, 2) +
               " deg), measured by " + (pose_graph::isFromGround(level) ? "the plane of the ground." : "gravity.")};
 }
@@ -159,7 +159,7 @@ Json toJson(const pose_graph::Level& level) {
   Json json = Json::object();
   json["known"] = level.known();
   if (level.known()) {
-    json["lean_deg"] = leanDeg(level);
+    json["lean_deg"] = tiltDeg(level);
     json["sigma_deg"] = kGraphDegrees * level.sigma;
     json["source"] = pose_graph::isFromGround(level) ? "ground" : "accelerometer";
     json["gravity"] = level.gravity;
@@ -258,12 +258,12 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
                     std::to_string(planes.accepted) + " of " + count(planes.all(), "constraint") +
                         " accepted; they moved poses by up to " + urban_nav_core::formatNumber(graph.planes.moved, 3) +
                         " m."});
-  const double boast = std::sqrt(graph.graph.odometryVariance());
-  if (boast > kBoasts)
-    made.push_back(
-        {Grade::Fair,
-         "Odometry errors are " + urban_nav_core::formatNumber(boast, 2) + " times their standard deviations,",
-         "as estimated from the closures; the covariances of this map are scaled accordingly."});
+  const double deviation_ratio = std::sqrt(graph.graph.odometryVariance());
+  if (deviation_ratio > kOverconfident)
+    made.push_back({Grade::Fair,
+                    "Odometry errors are " + urban_nav_core::formatNumber(deviation_ratio, 2) +
+                        " times their standard deviations,",
+                    "as estimated from the closures; the covariances of this map are scaled accordingly."});
   made.push_back(levelVerdict(graph.levels.front()));
   if (const double lean = kGraphDegrees * graph.graph.odometryLean(); lean > 0.0)
     made.push_back({Grade::Good, "Roll and pitch are corrected by the accelerometer.",

@@ -29,7 +29,7 @@ constexpr double kDegreesPerRadian = 57.29577951308232;
 constexpr double kLevelDeg = 5.0;  // largest standard deviation of a map reported as aligned
 
 /// Removes the closures of earlier runs that this run finds again. Keeps those of a file and asserted ones.
-void forgetFoundAnew(PreviousClosures& closures) {
+void dropRecomputed(PreviousClosures& closures) {
   PreviousClosures others;
   for (std::size_t i = 0; i < closures.in_graph.size(); ++i) {
     if (urban_nav_store::isFoundAnew(closures.in_graph[i].kind, closures.in_graph[i].source)) continue;
@@ -54,7 +54,7 @@ PreviousClosures previousClosures(const MapContext& context) {
     names.push_back(context.names[s]);
   }
   PreviousClosures closures = closuresBetween(*context.store, ids, names);
-  if (context.joins) forgetFoundAnew(closures);
+  if (context.joins) dropRecomputed(closures);
   return closures;
 }
 

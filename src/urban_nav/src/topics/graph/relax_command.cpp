@@ -109,7 +109,7 @@ pose_graph::RobustSolution<D> selected(const pose_graph::FileProblem<D>& file,
 template <int D>
 pose_graph::RobustSolution<D> solved(const pose_graph::FileProblem<D>& file, const pose_graph::Parameters& parameters,
                                      const pose_graph::SolveOptions& options) {
-  const bool doubted = parameters.robust;
+  const bool is_robust = parameters.robust;
   const std::string& solver = parameters.solver;
   const bool is_constrained =
       !file.problem.fixed.empty() || !file.priors.empty() || !file.point_edges.empty() || !file.point_ids.empty();
@@ -118,7 +118,7 @@ pose_graph::RobustSolution<D> solved(const pose_graph::FileProblem<D>& file, con
                     "--solver gauss_newton, ceres");
   pose_graph::RobustSolution<D> robust;
   robust.edges.resize(file.problem.edges.size());
-  if (doubted) robust = selected(file, options);
+  if (is_robust) robust = selected(file, options);
   if (solver != "gauss_newton") {
     pose_graph::Problem<D> accepted = file.problem.withoutEdges();
     for (std::size_t e = 0; e < robust.edges.size(); ++e)
@@ -126,7 +126,7 @@ pose_graph::RobustSolution<D> solved(const pose_graph::FileProblem<D>& file, con
         accepted.edges.push_back(file.problem.edges[e]);
     robust.solution =
         solver == "ceres" ? pose_graph::solveByCeres(accepted, options) : relaxAlongChain(accepted, options);
-  } else if (!doubted) {
+  } else if (!is_robust) {
     robust.solution = pose_graph::solve(file.problem, options);
   }
   return robust;
@@ -158,7 +158,7 @@ std::size_t rejectedEdges(const pose_graph::FileProblem<D>& file, const pose_gra
 }
 
 template <int D>
-void summarise(const pose_graph::FileProblem<D>& file, const pose_graph::RobustSolution<D>& robust, bool doubted,
+void summarise(const pose_graph::FileProblem<D>& file, const pose_graph::RobustSolution<D>& robust, bool is_robust,
                Warnings& warnings, RelaxReport& report) {
   const pose_graph::Solution<D>& solution = robust.solution;
   report.poses = file.ids.size();
@@ -176,7 +176,7 @@ void summarise(const pose_graph::FileProblem<D>& file, const pose_graph::RobustS
   }
   // Each pose of a component except the first has one trusted edge.
   const std::size_t trusted = report.poses - static_cast<std::size_t>(std::max(solution.components, 1));
-  if (doubted && report.edges > trusted) report.variance = robust.variance_factor;
+  if (is_robust && report.edges > trusted) report.variance = robust.variance_factor;
   report.before = computeCosts(file.problem, file.problem.poses);
   report.after = computeCosts(file.problem, solution.poses);
   if (solution.components > 1)
@@ -188,7 +188,7 @@ void summarise(const pose_graph::FileProblem<D>& file, const pose_graph::RobustS
   // A tree has no redundant edges, hence no residuals.
   const std::size_t parts = static_cast<std::size_t>(std::max(solution.components, 1));
   const std::size_t held = parts + std::max<std::size_t>(file.problem.fixed.size(), 1) - 1;
-  if (!doubted || file.problem.edges.size() + held <= file.problem.poses.size()) return;
+  if (!is_robust || file.problem.edges.size() + held <= file.problem.poses.size()) return;
   report.scales = estimateScales(file.problem, file.roles, robust.edges, solution.poses, robust.selection);
   for (const std::string& warning : pose_graph::selectionWarnings(file, robust, *report.scales)) warnings.add(warning);
 }
@@ -219,8 +219,8 @@ RelaxReport relaxFile(const G2oGraph& graph, const std::string& name, const Argu
   pose_graph::SolveOptions options;
   options.objective = parseObjective(arguments.get("objective", "geodesic"));
   options.iterations = parameters.iterations;
-  const bool doubted = parameters.robust;
-  const bool blocks = options.objective == Objective::Chordal && !doubted;
+  const bool is_robust = parameters.robust;
+  const bool blocks = options.objective == Objective::Chordal && !is_robust;
   const pose_graph::FileProblem<D> file = pose_graph::makeProblem<D>(
       graph, name, blocks ? pose_graph::Semidefinite::Blocks : pose_graph::Semidefinite::Whole);
   for (const std::string& note : file.notes) warnings.add(note);
@@ -238,7 +238,7 @@ RelaxReport relaxFile(const G2oGraph& graph, const std::string& name, const Argu
     for (const pose_graph::EdgeAssessment& edge : robust.edges) weights.push_back(edge.weight);
     report.certificate = certifyConverged(file.problem, robust.solution.poses, weights);
   }
-  summarise(file, robust, doubted, warnings, report);
+  summarise(file, robust, is_robust, warnings, report);
   writeOutputs(graph, file, robust, arguments);
   return report;
 }

@@ -11,7 +11,7 @@ struct NamedColour {
   const char* name;
 };
 
-// By the number of the class; with distinct lightness, for colour-blind readers.
+// One colour per class, with distinct lightness for colour-blind readers.
 constexpr std::array<NamedColour, scene_labeler::kClassCount> kClassColours = {{{{110, 90, 140}, "violet"},
                                                                                 {{150, 220, 90}, "light green"},
                                                                                 {{190, 190, 190}, "light grey"},

@@ -31,7 +31,7 @@ std::optional<std::string> withoutCloudExtension(std::string name) {
   return name.substr(0, name.size() - 4);
 }
 
-SceneFiles besidePoints(const std::filesystem::path& points, const std::string& name) {
+SceneFiles filesOfScene(const std::filesystem::path& points, const std::string& name) {
   SceneFiles files{name, points.string(), "", ""};
   for (const char* extension : {".jpg", ".png"}) {
     const std::filesystem::path image = points.parent_path() / (name + extension);
@@ -40,7 +40,7 @@ SceneFiles besidePoints(const std::filesystem::path& points, const std::string& 
   if (files.image.empty()) return files;
   files.projection = (points.parent_path() / "projection.txt").string();
   if (!std::filesystem::is_regular_file(files.projection))
-    throw UserError(files.projection, "does not exist", "a 3x4 matrix beside " + files.image);
+    throw UserError(files.projection, "does not exist", "a 3x4 matrix in the folder of " + files.image);
   return files;
 }
 
@@ -49,7 +49,7 @@ std::vector<SceneFiles> scenesOfFolder(const std::string& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const auto name = withoutCloudExtension(entry.path().filename().string());
     if (!name || !urban_nav_core::endsWith(*name, "_points") || !entry.is_regular_file()) continue;
-    scenes.push_back(besidePoints(entry.path(), name->substr(0, name->size() - 7)));
+    scenes.push_back(filesOfScene(entry.path(), name->substr(0, name->size() - 7)));
   }
   if (scenes.empty()) throw UserError(folder, "holds no scene", kSceneRule);
   return scenes;
@@ -64,7 +64,7 @@ std::vector<SceneFiles> scenesOfSource(const std::string& source) {
     throw UserError(source, urban_nav_input::isRecording(source) ? "is a recording, not a scene" : "is not a scene",
                     kSceneRule);
   const bool has_suffix = urban_nav_core::endsWith(*name, "_points");
-  return {besidePoints(path, has_suffix ? name->substr(0, name->size() - 7) : *name)};
+  return {filesOfScene(path, has_suffix ? name->substr(0, name->size() - 7) : *name)};
 }
 
 Eigen::Matrix<double, 3, 4> readProjection(const std::string& path) {

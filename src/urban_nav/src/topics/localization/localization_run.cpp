@@ -31,11 +31,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Registers local clouds of a run to the map; does nothing without scans.
-class CloudLooks {
+class CloudComparisons {
  public:
-  CloudLooks(const urban_nav_localization::Parameters& parameters, const urban_nav_localization::FrozenMap& map,
-             Store& frozen, Store& own, const urban_nav_store::SessionId& id, const SessionOdometry& run,
-             Console& console)
+  CloudComparisons(const urban_nav_localization::Parameters& parameters, const urban_nav_localization::FrozenMap& map,
+                   Store& frozen, Store& own, const urban_nav_store::SessionId& id, const SessionOdometry& run,
+                   Console& console)
       : console_(console) {
     if (!parameters.icp || own.scans().lasers(id).empty()) return;
     scans_ = urban_nav_registration::storedScans(own.scans(), id, urban_nav_registration::storedLasers(own, id));
@@ -43,7 +43,7 @@ class CloudLooks {
     search_ = std::make_unique<urban_nav_localization::CloudSearch>(parameters, map, frozen);
   }
 
-  void lookOn(urban_nav_localization::Localiser& localiser, LocalizationRun& made) {
+  void compareWith(urban_nav_localization::Localiser& localiser, LocalizationRun& made) {
     const auto stretch = search_ ? search_->due(localiser) : std::nullopt;
     if (!stretch) return;
     if (search_->read() == 0) readMap();
@@ -81,7 +81,7 @@ LocalizationRun runLocalization(const urban_nav_localization::Parameters& parame
   while (search.readNext()) reading.update(static_cast<std::int64_t>(search.read()));
   reading.finish(static_cast<std::int64_t>(search.views()));
   urban_nav_localization::Localiser localiser(parameters);
-  CloudLooks clouds(parameters, map, frozen, own, id, run, console);
+  CloudComparisons clouds(parameters, map, frozen, own, id, run, console);
   const std::vector<StampNs> views = own.keyframes().stamps(id, urban_nav_core::frames::kStereoLeft);
   Progress progress(console, "localise", "frames", static_cast<std::int64_t>(run.settled.size()));
   std::vector<double> ms;
@@ -96,7 +96,7 @@ LocalizationRun runLocalization(const urban_nav_localization::Parameters& parame
         made.sightings += search.query(urban_nav_registration::toKeyframe(*stored, ""), localiser) ? 1 : 0;
       ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
     }
-    clouds.lookOn(localiser, made);
+    clouds.compareWith(localiser, made);
     LocalizationEstimate located = localiser.at(frame.stamp);
     located.stamp = frame.stamp;
     if (located.state == LocalizationState::Localized) {

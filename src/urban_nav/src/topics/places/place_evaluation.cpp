@@ -74,7 +74,7 @@ std::string printEvaluation(const PlaceEvaluation& evaluation) {
         ", right: " + shareText(score.sure_right, score.sure) +
         "\n  announced above 0.9 up to 0.99: " + std::to_string(score.nearly) +
         ", right: " + shareText(score.nearly_right, score.nearly) +
-        "\n  revisits announced, or beside one that is: " + shareText(score.near_sure, score.ranking.revisits) +
+        "\n  revisits announced, or next to an announced one: " + shareText(score.near_sure, score.ranking.revisits) +
         "\n  calibration error of claims above 0.5: " + urban_nav_core::formatNumber(score.calibration_error, 2) + "\n";
   }
   for (const PlaceEvaluation::Curve& curve : evaluation.words)

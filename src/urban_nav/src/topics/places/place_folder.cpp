@@ -19,7 +19,7 @@ using urban_nav_core::UserError;
 
 namespace {
 
-/// Where stereo folders keep their left images.
+/// Subfolders of the left images in stereo folders.
 constexpr std::array<const char*, 4> kLeftFolders = {"image_0", "image_00/data", "image_00", "mav0/cam0/data"};
 
 std::vector<std::string> imagesIn(const fs::path& folder) {

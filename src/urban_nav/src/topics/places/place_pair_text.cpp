@@ -37,7 +37,7 @@ std::vector<std::vector<std::string>> placeFigures(const PlacePair& pair) {
   rows.push_back({"share that agrees, square root", urban_nav_core::formatNumber(match.evidence.look, 3) +
                                                         "; beyond the best place elsewhere " +
                                                         urban_nav_core::formatNumber(match.evidence.look_margin, 3)});
-  rows.push_back({"probability, of this observation alone",
+  rows.push_back({"probability, from this observation only",
                   urban_nav_core::formatNumber(pair.probability, 4) + "; proposed above " +
                       urban_nav_core::formatNumber(pair.closure_probability)});
   return rows;

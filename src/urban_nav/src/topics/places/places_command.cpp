@@ -63,7 +63,7 @@ Command replayAction() {
        {}},
       {"--model", "NAME", "model of inference", true, false, fabmap_node::replayModelNames()},
       {"-o,--output", "OUT.csv", "table to write: query,place,ll,p; place -1 is a new place", true, false, {}},
-      {"--tree", "FILE", "Chow-Liu tree in openFABMAP's format (default: learnt from BOW)", false, false, {}},
+      {"--tree", "FILE", "Chow-Liu tree in openFABMAP's format (default: trained from BOW)", false, false, {}},
       {"--tree-out", "FILE", "writes the tree that was used in the same format", false, false, {}},
       jsonOption(),
       configOption(),

@@ -17,7 +17,7 @@ using urban_nav_core::Health;
 namespace {
 
 constexpr std::size_t kBins = 40;
-constexpr double kBriefLoss = 0.005;  // share of the frames up to which a loss is brief
+constexpr double kBriefLoss = 0.005;                               // share of the frames up to which a loss is brief
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // ends a line
 
 double toSeconds(const VoRun& run, urban_nav_core::StampNs stamp) {
@@ -86,7 +86,7 @@ Figure pathFigure(const VoRun& run, int a, int b, const std::string& title, cons
 }
 
 /// Plots the estimated standard deviations of three coordinates from index `first`.
-Figure doubtFigure(const VoRun& run, int first, const std::string& title, const std::string& y_label, double unit) {
+Figure deviationFigure(const VoRun& run, int first, const std::string& title, const std::string& y_label, double unit) {
   static const std::array<const char*, 6> names = {"x", "y", "z", "roll", "pitch", "heading"};
   static const std::array<const char*, 3> colours = {"a", "b", "c"};
   Plot plot;
@@ -102,8 +102,7 @@ Figure doubtFigure(const VoRun& run, int first, const std::string& title, const 
     plot.series.push_back(
         line(names[static_cast<std::size_t>(first + i)], colours[static_cast<std::size_t>(i)], points));
   }
-  return {title, renderSvg(plot),
-          "Estimated, relative to the first pose. Shaded: the status was not OK.", false};
+  return {title, renderSvg(plot), "Estimated, relative to the first pose. Shaded: the status was not OK.", false};
 }
 
 Figure featuresFigure(const VoRun& run) {
@@ -141,10 +140,8 @@ Figure statusFigure(const VoRun& run) {
     key.kind = Series::Kind::Band;
     plot.series.push_back(key);
   }
-  return {
-      "Status", renderSvg(plot),
-      "Degraded: too few features. Lost: the pose is predicted, and its covariance grows.",
-      true};
+  return {"Status", renderSvg(plot),
+          "Degraded: too few features. Lost: the pose is predicted, and its covariance grows.", true};
 }
 
 Figure reprojectionFigure(const VoRun& run) {
@@ -209,16 +206,14 @@ std::vector<Section> voSections(const VoRun& run, bool with_path) {
   if (run.frames.empty()) return {};
   const VoSummary summary = summarise(run);
   Section path{
-      "path", with_path ? "Path" : "Uncertainty", "Smoothed poses of base_link, relative to the first.", {}, {},
-      {}};
+      "path", with_path ? "Path" : "Uncertainty", "Smoothed poses of base_link, relative to the first.", {}, {}, {}};
   if (with_path)
     path.figures.push_back(pathFigure(run, 0, 1, "From above", "x, forward at the start (m)", "y, left (m)"));
   if (with_path)
     path.figures.push_back(pathFigure(run, 0, 2, "From the side", "x, forward at the start (m)", "z, up (m)"));
+  path.figures.push_back(deviationFigure(run, 0, "Uncertainty of the position", "one standard deviation (m)", 1.0));
   path.figures.push_back(
-      doubtFigure(run, 0, "Uncertainty of the position", "one standard deviation (m)", 1.0));
-  path.figures.push_back(
-      doubtFigure(run, 3, "Uncertainty of the orientation", "one standard deviation (deg)", 180.0 / M_PI));
+      deviationFigure(run, 3, "Uncertainty of the orientation", "one standard deviation (deg)", 180.0 / M_PI));
   Section work{"work", "Tracking", "", {}, {}, {}};
   work.figures = {statusFigure(run), featuresFigure(run), reprojectionFigure(run), offsetFigure(run),
                   timingFigure(run, summary)};
@@ -250,9 +245,9 @@ std::vector<Verdict> voVerdicts(const VoSummary& summary) {
     reasons += (reasons.empty() ? " Reasons: " : ", ") + reason + " (" + std::to_string(count) + ")";
   if (lost > 0) {
     const bool is_long = static_cast<double>(lost) > kBriefLoss * static_cast<double>(all);
-    verdicts.push_back(
-        {is_long ? Grade::Bad : Grade::Fair, is_long ? "Tracking was lost." : "Tracking was lost for a moment.",
-         percent(lost) + " of the frames are predicted only; their covariance grows." + reasons + "."});
+    verdicts.push_back({is_long ? Grade::Bad : Grade::Fair,
+                        is_long ? "Tracking was lost." : "Tracking was lost for a moment.",
+                        percent(lost) + " of the frames are predicted only; their covariance grows." + reasons + "."});
   } else if (ok < all) {
     verdicts.push_back({Grade::Fair, "Tracking held, with few features at times.",
                         percent(all - ok) + " of the frames are not OK." + reasons + "."});

@@ -180,7 +180,7 @@ TEST(GraphRunTest, SessionsThatJoinEachOtherAloneAreOneMapOfTheirOwn) {
   EXPECT_EQ(urban_nav_input::testing::readFile(out.file("trajectory_3.tum")), "");
 }
 
-/// What an accelerometer feels on the circle at each frame.
+/// Adds the specific forces on the circle at each frame.
 void feel(SessionOdometry& run, const Pose& T_first_level) {
   constexpr double kTurnRate = 2.0 * M_PI / (600.0 * 0.05);
   const Pose first = truthAt(static_cast<double>(run.settled.front().stamp) / kStep);
@@ -209,8 +209,8 @@ struct TwoDays {
   }
 };
 
-// The robot's first pose leans by 0.1 rad to the side and 0.05 rad ahead.
-const Pose kLeaning(expSo3(Vector3d(0.1, 0.05, 0.0)), Vector3d::Zero());
+// The robot's first pose is tilted by 0.1 rad to the side and 0.05 rad ahead.
+const Pose kTilted(expSo3(Vector3d(0.1, 0.05, 0.0)), Vector3d::Zero());
 
 TEST(GraphRunTest, LevelsTheMapWhereAnAccelerometerKnowsHow) {
   TwoDays days;
@@ -218,21 +218,21 @@ TEST(GraphRunTest, LevelsTheMapWhereAnAccelerometerKnowsHow) {
   EXPECT_FALSE(before.levels[0].known());
   EXPECT_EQ(before.levels[0].trouble, pose_graph::LevelTrouble::NoForces);
 
-  feel(days.monday, kLeaning.inverse());
+  feel(days.monday, kTilted.inverse());
   const GraphRun after = days.relaxed(false);
   ASSERT_TRUE(after.levels[0].known());
-  EXPECT_NEAR(std::acos(after.levels[0].up.z()), std::acos(kLeaning.R()(2, 2)), 2e-3);
-  EXPECT_TRUE(isApprox(after.trajectory(0).front().pose, kLeaning * Pose(), 5e-3)) << "its heading was zero and is";
+  EXPECT_NEAR(std::acos(after.levels[0].up.z()), std::acos(kTilted.R()(2, 2)), 2e-3);
+  EXPECT_TRUE(isApprox(after.trajectory(0).front().pose, kTilted * Pose(), 5e-3)) << "its heading was zero and is";
   EXPECT_LT(after.trajectory(0).front().pose.t().norm(), 1e-12);
   for (std::size_t s = 0; s < 2; ++s) {
-    const auto level = after.trajectory(s), leaning = before.trajectory(s);
+    const auto level = after.trajectory(s), tilted = before.trajectory(s);
     const Pose turn = after.trajectory(0).front().pose;
     for (std::size_t i = 0; i < level.size(); i += 50)
-      EXPECT_TRUE(isApprox(level[i].pose, turn * leaning[i].pose, 1e-9));
+      EXPECT_TRUE(isApprox(level[i].pose, turn * tilted[i].pose, 1e-9));
     EXPECT_EQ(after.covariances[s].back(), before.covariances[s].back()) << "they are of the axes of the first pose";
   }
 
-  // Where the first session has none, the next one of the same map says it.
+  // If the first session has no accelerometer, the next one of the same map determines gravity.
   days.monday.forces.clear();
   feel(days.tuesday, Pose());
   for (const bool gravity : {false, true}) {
@@ -243,7 +243,7 @@ TEST(GraphRunTest, LevelsTheMapWhereAnAccelerometerKnowsHow) {
 }
 
 TEST(GraphRunTest, HoldsRollAndPitchBySpecificForce) {
-  // Odometry that leans ever more to one side, by 0.05 rad in 45 s, from a start that leans; closures would see that.
+  // Odometry whose roll drifts by 0.05 rad in 45 s, from a tilted start; closures would correct that.
   TwoDays days;
   days.rows.clear();
   Pose odom;
@@ -254,17 +254,17 @@ TEST(GraphRunTest, HoldsRollAndPitchBySpecificForce) {
     odom = odom * step.T_from_to;
     days.monday.settled[i].T_odom_base.pose = odom;
   }
-  feel(days.monday, kLeaning.inverse());
-  const auto worstLean = [](const GraphRun& run) {
+  feel(days.monday, kTilted.inverse());
+  const auto worstTilt = [](const GraphRun& run) {
     double worst = 0.0;
     for (const auto& pose : run.trajectory(0)) {
       const Vector3d up = truthAt(static_cast<double>(pose.stamp) / kStep).R().transpose() *
-                          (kLeaning.inverse().R() * Vector3d::UnitZ());
+                          (kTilted.inverse().R() * Vector3d::UnitZ());
       worst = std::max(worst, (pose.pose.R().transpose() * Vector3d::UnitZ() - up).norm());
     }
     return worst;
   };
-  const double leant = worstLean(days.relaxed(false)), held = worstLean(days.relaxed(true));
+  const double leant = worstTilt(days.relaxed(false)), held = worstTilt(days.relaxed(true));
   EXPECT_GT(leant, 0.01);
   EXPECT_LT(held, 0.3 * leant);
 }

@@ -40,7 +40,7 @@ class Relax : public ::testing::Test {
   const urban_nav_input::testing::TemporaryFolder folder_;
 };
 
-// A square whose odometry turns too little, and a closure that says so.
+// A square whose odometry turns too little, and a closure that contradicts it.
 const char* const kSquare =
     "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 1.5\nVERTEX_SE2 2 1 1 3\nVERTEX_SE2 3 0 1 -1.7\nVERTEX_SE2 4 0.1 0.1 0.1\n"
     "EDGE_SE2 0 1 1 0 1.5 100 0 0 100 0 400\nEDGE_SE2 1 2 1 0 1.5 100 0 0 100 0 400\n"
@@ -132,7 +132,7 @@ TEST_F(Relax, UnknownLinesAreRefusedOrNamedAndCounted) {
   EXPECT_NE(readTextFile(path("a.json")).find("2 lines TUTORIAL_EDGE_SE2"), std::string::npos);
 }
 
-// A square that is measured well enough to tell a true closure from one anywhere by more than a factor of 1000.
+// A square measured accurately enough that a true closure is more likely than chance by a factor above 1000.
 const char* const kSharpSquare =
     "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 1.57\nVERTEX_SE2 2 1 1 3.14\nVERTEX_SE2 3 0 1 -1.57\nVERTEX_SE2 4 0 0 0\n"
     "EDGE_SE2 0 1 1 0 1.57 1e4 0 0 1e4 0 4e4\nEDGE_SE2 1 2 1 0 1.57 1e4 0 0 1e4 0 4e4\n"

@@ -11,7 +11,7 @@ namespace {
 using laser_mapper::CalibrationTerm;
 using laser_mapper::DeviceCalibration;
 
-/// A session whose left laser is 30 ms late, and that does not tell the delay of the right one.
+/// A session whose left laser is 30 ms late, and that does not determine the delay of the right one.
 LasersRun runWithCalibration(bool improves) {
   DeviceCalibration left, right;
   left.frame = "laser_left";

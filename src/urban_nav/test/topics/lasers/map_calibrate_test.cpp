@@ -21,7 +21,7 @@ int runCommand(const std::vector<std::string>& words) {
   return runCommandLine({mapCommand(makeStages)}, addStageTables, static_cast<int>(argv.size()), argv.data());
 }
 
-/// What `map` says of its calibration in summary.json.
+/// Returns the calibration in summary.json of `map`.
 nlohmann::json readCalibration(const std::string& folder) {
   const auto summary = nlohmann::json::parse(urban_nav_input::testing::readFile(folder + "/summary.json"));
   return summary.at("laser_mapper").at("calibration").at(0);

@@ -38,7 +38,7 @@ void map(const std::vector<std::string>& inputs, const std::string& out, const s
   runMap(request, makeStages(), console);
 }
 
-/// The same room twice: two sessions whose frames lie to each other as the truth of one says.
+/// Two sessions in the same room, whose frames differ by a known transform.
 class Loops : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {

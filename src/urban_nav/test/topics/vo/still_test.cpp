@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle that stands, with an inertial unit to tell how still: neither was made by this project.
+// A public recording of a stationary vehicle with an IMU, which measures the remaining motion.
 #include <gtest/gtest.h>
 
 #include <algorithm>

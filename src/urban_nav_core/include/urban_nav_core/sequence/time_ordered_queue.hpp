@@ -84,7 +84,7 @@ class TimeOrderedQueue {
     std::optional<StampNs>& reached = reached_[static_cast<std::size_t>(stream)];
     reached = reached ? std::max(*reached, stamp) : stamp;
     if (!follows) newest_ = newest_ ? std::max(*newest_, stamp) : stamp;
-    else if (!newest_) forgetBefore(*reached - kMostAhead);
+    else if (!newest_) dropBefore(*reached - kMostAhead);
     return true;
   }
 
@@ -149,7 +149,7 @@ class TimeOrderedQueue {
   }
 
   /// Drops inputs of following streams that wait for the first one of the others.
-  void forgetBefore(StampNs stamp) {
+  void dropBefore(StampNs stamp) {
     while (!waiting_.empty() && waiting_.front().stamp < stamp) {
       ++counts_[static_cast<std::size_t>(waiting_.front().stream)].late;
       waiting_.erase(waiting_.begin());

@@ -34,7 +34,7 @@ struct MotionInput {
   Matrix6d information = Matrix6d::Zero();  ///< of (rho, phi) in `from`; may be singular. All zero: not stated
   MotionSource source = MotionSource::Given;
   Quaterniond q_base_sensor = Quaterniond::Identity();  ///< axes of the sensor in base_link
-  /// Of an IMU: specific force at `to` in the axes of base_link, m/s^2 (upwards at rest); zero: not measured.
+  /// Specific force of an IMU at `to` in the axes of base_link, m/s^2 (upwards at rest); zero: not measured.
   Vector3d specific_force = Vector3d::Zero();
 };
 

@@ -10,7 +10,7 @@ namespace urban_nav_core {
 
 /// State of a stage's output. Faults of the data are reported here, not as exceptions.
 enum class Health {
-  Ok,         ///< works as designed
+  Ok,         ///< normal operation
   Degraded,   ///< output with reduced input; the covariance is larger accordingly
   Lost,       ///< output by prediction only; the covariance grows
   Recovered,  ///< the first good output after Lost

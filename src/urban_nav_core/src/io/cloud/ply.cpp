@@ -136,7 +136,7 @@ class BinaryNumbers {
   bool swap_;
 };
 
-/// Reads words separated by blanks and line ends, which the format treats alike.
+/// Reads words separated by blanks and line ends, which are equivalent in the format.
 class AsciiNumbers {
  public:
   AsciiNumbers(HeaderLines& lines, std::string name) : lines_(lines), name_(std::move(name)) {}
