@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Faults of the rig in simulated sessions: tests that `trust` names each of them, and that fault-free sessions have no failed test.
 
-  trust_faults.py [-o FILE.json] [--work DIR] [--only WORDS] [--sound N] [CASE...]
+  trust_faults.py [-o FILE.json] [--reliability FILE.json] [--work DIR] [--only WORDS] [--sound N] [CASE...]
 
 CASE: WORLD:SEED of the simulator (default quad:41 street:42 begbroke:43), 30 s with stereo, lasers, IMU and wheels. Each fault has three sizes; it
-begins in the middle of the session or holds from its start. --sound N: maps N fault-free sessions of each case, with the next seeds. Needs
+begins in the middle of the session or holds from its start. --sound N: maps N fault-free sessions of each case, with the next seeds.
+--reliability: shares of the frames of all runs that are within a radius, by the probability stated for it. Needs
 python3-rosbag and python3-opencv.
 """
 import argparse
@@ -21,7 +22,7 @@ from typing import Callable
 import cv2
 import numpy as np
 
-from driver_faults import IMAGES, IMU, INFOS, LASERS, LEFT, RIGHT, STEREO, WHEELS, Change
+from driver_faults import IMAGES, IMU, INFOS, LASERS, LEFT, STEREO, WHEELS, Change
 from recording_faults import command, dressed
 from support import commit, show, simulated_bag
 
@@ -36,6 +37,8 @@ MIDDLE = SECONDS / 2
 SENSORS = "stereo,lasers,imu,wheels"
 STAGES = "vo,stereo,graph,lasers,trust"
 FAR = 0.5  # m: a frame further off must not be KNOWN
+RADII = 0.1, 0.5, 2.0  # m, of the stated probabilities
+BINS = 0.0, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 0.99, 1.0  # edges, of probabilities
 LATE = 5.0  # s: a change is named this long after it at most
 
 
@@ -193,7 +196,9 @@ class Run:
         there = np.stack([np.interp(path[:, 0], true[:, 0], true[:, i]) for i in (1, 2, 3)], 1) - begin
         self.off = np.linalg.norm((path[:, 1:4] - first[1:4]) @ turn.T - there, axis=1)
         self.percent = 100 * self.off.max() / np.linalg.norm(np.diff(there, axis=0), axis=1).sum()
-        states = [row["state"] for row in csv.DictReader(open(out / "trust.csv"))]
+        frames = list(csv.DictReader(open(out / "trust.csv")))
+        states = [frame["state"] for frame in frames]
+        self.stated = np.array([[float(frame[f"p_{radius:g}m"]) for radius in RADII] for frame in frames])
         self.wrong = sum(state == "KNOWN" and off > FAR for state, off in zip(states, self.off))
         self.begin = path[0, 0]
 
@@ -215,6 +220,22 @@ def session(folder, world, seed):
     return bag, folder / f"{world}{seed}.truth" / "trajectory.tum"
 
 
+def reliability_of(runs):
+    """Returns rows: stated probability, and for each radius the number of frames and their mean probability and share within it."""
+    stated = np.concatenate([run.stated for run in runs])
+    inside = np.concatenate([run.off[:, None] < np.array(RADII) for run in runs])
+    rows = []
+    for low, high in zip(BINS, BINS[1:]):
+        row = [f"{low:g} to {high:g}"]
+        for k in range(len(RADII)):
+            chosen = (stated[:, k] >= low) & ((stated[:, k] < high) | (high == 1.0))
+            row += [str(int(chosen.sum())), *(f"{values[chosen, k].mean():.3f}" if chosen.any() else "" for values in (stated, inside))]
+        rows.append(row)
+    errors = [sum(abs((stated[c, k] - inside[c, k]).mean()) * c.sum() for low, high in zip(BINS, BINS[1:])
+                  for c in [(stated[:, k] >= low) & ((stated[:, k] < high) | (high == 1.0))] if c.any()) / len(stated) for k in range(len(RADII))]
+    return rows, ["Expected calibration error: " + ", ".join(f"{error:.3f} ({radius:g} m)" for error, radius in zip(errors, RADII)) + f"; {len(stated)} frames of {len(runs)} runs."]
+
+
 def row_of(name, fault, size, run):
     if run.status != 0:
         return [name, fault, size, "exit status 1", "", "", run.text.strip().splitlines()[-1][:80]]
@@ -223,12 +244,13 @@ def row_of(name, fault, size, run):
 
 
 def measure(case, folder, arguments):
-    """Returns rows: session, fault, size, error, state, frames wrongly KNOWN, failed tests, named."""
+    """Returns rows (session, fault, size, error, state, frames wrongly KNOWN, failed tests, named) and runs."""
     world, seed = case.split(":")
-    rows = []
+    rows, runs = [], []
     for number in range(arguments.sound):
         bag, truth = session(folder, world, int(seed) + number)
         run = Run([bag], folder / "out", truth)
+        runs.append(run)
         rows.append([*row_of(bag.stem, "sound", "", run), "nothing" if run.status == 0 and not run.failed else "false alarm"])
         print("  ".join(rows[-1]), file=sys.stderr)
         if number > 0:
@@ -239,10 +261,11 @@ def measure(case, folder, arguments):
             continue
         for size in fault.sizes:
             run = Run(dressed(bag, fault.make(size), folder / "in"), folder / "out", truth)
+            runs.append(run)
             named = run.status == 0 and run.names(fault)
             rows.append([*row_of(bag.stem, fault.name, f"{size} {fault.unit}", run), "yes" if named else "no"])
             print("  ".join(rows[-1]), file=sys.stderr)
-    return rows
+    return rows, [run for run in runs if run.status == 0]
 
 
 def notes_of(rows):
@@ -261,6 +284,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("cases", nargs="*", metavar="CASE", default=["quad:41", "street:42", "begbroke:43"])
     parser.add_argument("-o", "--output", type=Path)
+    parser.add_argument("--reliability", type=Path, help="output table of the stated probabilities")
     parser.add_argument("--work", type=Path)
     parser.add_argument("--only", help="faults whose names match this regular expression")
     parser.add_argument("--sound", type=int, default=1, help="number of fault-free sessions of each case (default 1)")
@@ -270,8 +294,13 @@ def main():
     measured = commit()
     folder = arguments.work or Path(tempfile.mkdtemp())
     folder.mkdir(parents=True, exist_ok=True)
-    rows = [row for case in arguments.cases for row in measure(case, folder, arguments)]
+    rows, runs = [], []
+    for case in arguments.cases:
+        more, of_case = measure(case, folder, arguments)
+        rows += more
+        runs += of_case
     show(("session", "fault", "size", "path off by, %", "state", "frames KNOWN and wrong", "failed tests", "named"), rows, notes_of(rows), measured, arguments.output)
+    show(("stated", *(f"{what}, {radius:g} m" for radius in RADII for what in ("frames", "mean", "within"))), *reliability_of(runs), measured, arguments.reliability)
 
 
 if __name__ == "__main__":
