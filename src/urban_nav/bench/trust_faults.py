@@ -109,10 +109,20 @@ def rate_bias(radians):
     return alter
 
 
-def wheel_scale(percent):
-    def alter(message):
-        message.twist.twist.linear.x *= 1 + percent / 100
-    return alter
+def larger_wheels(percent):
+    """Steps and speeds that become larger at the middle of the session."""
+    last = {}
+
+    def alter(_, message, t):
+        factor = 1 + percent / 100 if t >= MIDDLE else 1.0
+        place = message.pose.pose.position
+        here = np.array([place.x, place.y])
+        if last:
+            last["stated"] = last["stated"] + factor * (here - last["true"])
+        last.update(true=here, stated=last.get("stated", here))
+        place.x, place.y = last["stated"]
+        message.twist.twist.linear.x *= factor
+    return Change((WHEELS,), alter)
 
 
 def range_scale(percent):
@@ -171,7 +181,7 @@ FAULTS = (
     Fault("clock of the IMU drifts", "s", (0.05, 0.1, 0.3), (IMU,), r"clock|delay|stamp", lambda size: drifting((IMU,), size)),
     Fault("clock of the lasers drifts", "s", (0.05, 0.1, 0.3), LASERS, r"laser", lambda size: drifting(LASERS, size)),
     Fault("gyroscope gets a bias", "rad/s", (0.01, 0.03, 0.1), (IMU,), r"gyroscope", changed((IMU,), rate_bias, MIDDLE), MIDDLE),
-    Fault("wheels get larger", "%", (2.0, 5.0, 20.0), (WHEELS,), r"wheel", changed((WHEELS,), wheel_scale, MIDDLE), MIDDLE),
+    Fault("wheels get larger", "%", (2.0, 5.0, 20.0), (WHEELS,), r"wheel", larger_wheels, MIDDLE),
     Fault("ranges of the lasers too long", "%", (1.0, 3.0, 10.0), LASERS, r"laser|lengths|scale", changed(LASERS, range_scale, 0.0)),
     Fault("a laser turned on its mount", "deg", (1.0, 3.0, 10.0), (LEFT,), r"laser", changed((LEFT,), scan_turn, MIDDLE), MIDDLE),
     Fault("right camera frozen", "s", (0.3, 1.0, 3.0), IMAGES[1:], PAIR, lambda size: frozen(IMAGES[1:], size), MIDDLE),

@@ -22,8 +22,9 @@ using urban_nav_store::StoredTrajectory;
 namespace {
 
 /// Tables not needed for rendering and export of points, and chunks, which are rendered again.
-constexpr std::array<const char*, 10> kLeftOut = {"chunk", "chunk_cells", "input",      "edge",  "evidence",
-                                                  "edit",  "edge_number", "graph_file", "place", "keyframe_place"};
+constexpr std::array<const char*, 11> kLeftOut = {"chunk",      "chunk_cells", "tile_colours",  "input",
+                                                  "edge",       "evidence",    "edit",          "edge_number",
+                                                  "graph_file", "place",       "keyframe_place"};
 
 std::string makeFolder() {
   std::string name = (fs::temp_directory_path() / "urban_nav-XXXXXX").string();

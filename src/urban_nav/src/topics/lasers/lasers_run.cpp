@@ -67,14 +67,6 @@ class SigmaHistogram {
   std::size_t all_ = 0;
 };
 
-/// Passes the surface of a map to its colouriser; returns the number of views.
-std::size_t prepareColours(const LaserMap& map, laser_mapper::Colouriser& colouriser) {
-  map.forEachTile(
-      [&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) { colouriser.addSurface(points); });
-  colouriser.equalise();
-  return colouriser.views();
-}
-
 /// Returns the reason why a map has no points.
 std::string whyEmpty(const LaserMapRun& run) {
   const laser_mapper::BeamCounts& beams = run.rendered.beams;
@@ -83,8 +75,8 @@ std::string whyEmpty(const LaserMapRun& run) {
          " out of range), and no surface is seen by three keyframes of dense stereo";
 }
 
-/// Renders a map. `make_colouriser`: called after rendering.
-LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<laser_mapper::Colouriser>()>& make_colouriser,
+/// Renders a map. `make_colours`: called after rendering.
+LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<MapColours>()>& make_colours,
                       const std::vector<laser_mapper::MappedSession>& mapped, std::size_t first_session,
                       const MapContext& context) {
   LaserMapRun run;
@@ -93,8 +85,8 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<laser_m
   Progress bar(context.console, "lasers", "chunks", 0);
   run.rendered = map.render([&](std::size_t done, std::size_t) { bar.update(static_cast<std::int64_t>(done)); });
   bar.finish(static_cast<std::int64_t>(run.rendered.chunks));
-  const std::unique_ptr<laser_mapper::Colouriser> colouriser = make_colouriser();
-  if (colouriser != nullptr) run.views = prepareColours(map, *colouriser);
+  const std::unique_ptr<MapColours> colours = make_colours();
+  run.views = colours->views();
   std::vector<std::vector<urban_nav_core::Vector3d>> paths;
   std::vector<urban_nav_core::Vector3d> all;
   std::vector<urban_nav_store::SessionId> ids;
@@ -113,8 +105,8 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<laser_m
                                  laser_mapper::mapLayout(laser_mapper::storedSensors(*context.store, ids)));
   SigmaHistogram sigmas;
   MapViewer viewer(first_session);
-  run.ghost_beams = map.forEachTile([&](const laser_mapper::Tile&, std::vector<MapPoint> points) {
-    if (colouriser != nullptr) run.coloured += colouriser->colour(points);
+  run.ghost_beams = map.forEachTile([&](const laser_mapper::Tile& tile, std::vector<MapPoint> points) {
+    run.coloured += colours->colour(tile, points);
     std::string bytes;
     for (const MapPoint& point : points) {
       appendVertex(bytes, point);
@@ -127,6 +119,7 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<laser_m
     for (MapPoint& point : points) point.displacement = quality.displacementAt(point.p).value_or(-1.0F);
     viewer.add(points);
   });
+  colours->finish();
   run.points = file.vertices();
   run.sigma_median = sigmas.median();
   if (run.points > 0) file.commit();
@@ -252,11 +245,11 @@ LasersRun runLasers(const laser_mapper::Parameters& parameters, MapContext& cont
       for (const laser_mapper::MappedSession& session : mapped) laser_mapper::forgetChunks(*context.store, session.id);
     LaserMap laser_map(parameters, *context.store, mapped);
     const double memory_mb = kImageMemoryShare * context.options.parameters.get(commandTable()).memory_mb;
-    const auto make_colouriser = [&, &sessions_of_this_map = sessions] {
+    const auto make_colours = [&, &sessions_of_this_map = sessions] {
       calibrateViews(sessions_of_this_map, laser_map, mapped, context, run);
-      return makeColouriser(*context.store, mapped, parameters.voxel, memory_mb);
+      return std::make_unique<MapColours>(*context.store, laser_map, mapped, memory_mb, true);
     };
-    LaserMapRun map_run = renderMap(laser_map, make_colouriser, mapped, map, context);
+    LaserMapRun map_run = renderMap(laser_map, make_colours, mapped, map, context);
     for (const laser_mapper::MappedSession& session : mapped) forgetRenderedPoses(*context.store, session.id);
     if (map_run.points == 0) {
       if (!context.options.stages.empty()) throw urban_nav_core::DataError(context.options.out, whyEmpty(map_run), "");

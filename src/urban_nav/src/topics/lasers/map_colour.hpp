@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "laser_mapper/calibration/view_calibration.hpp"
@@ -12,11 +13,35 @@
 
 namespace urban_nav {
 
-/// Returns the colouriser of a map from stored panoramas of its sessions, about 0.7 m or 15 deg apart; null if there
-/// are none within the time of the trajectories. The store must outlive it. `memory_mb`: for decoded images.
-std::unique_ptr<laser_mapper::Colouriser> makeColouriser(urban_nav_store::Store& store,
-                                                         const std::vector<laser_mapper::MappedSession>& sessions,
-                                                         double voxel, double memory_mb);
+/// Colours of the points of a map from stored panoramas of its sessions, about 0.7 m or 15 deg apart. They are computed
+/// once and kept in the store, until chunks, poses or panoramas differ. Not thread-safe.
+class MapColours {
+ public:
+  /// Reads or prepares the colours of a rendered map, which requires two passes over its tiles if they are not stored.
+  /// Store and map must outlive this object. `memory_mb`: for decoded images. `keep`: writes computed colours to the
+  /// store, which must be open for writing.
+  MapColours(urban_nav_store::Store& store, const laser_mapper::LaserMap& map,
+             const std::vector<laser_mapper::MappedSession>& sessions, double memory_mb, bool keep);
+  ~MapColours();
+
+  /// Returns the number of images; 0: there are no panoramas within the time of the trajectories.
+  std::size_t views() const { return views_; }
+  /// Sets red, green and blue of the points of a tile that are visible in an image. Returns their number.
+  std::size_t colour(const laser_mapper::Tile& tile, std::vector<laser_mapper::MapPoint>& points);
+  /// Commits the kept colours. To be called after the last tile.
+  void finish();
+
+ private:
+  bool isStored() const;
+  void removeStored();
+
+  urban_nav_store::Store& store_;
+  const std::vector<laser_mapper::MappedSession> sessions_;
+  const bool keep_;
+  std::size_t views_ = 0;
+  std::string digest_;
+  std::unique_ptr<laser_mapper::Colouriser> colouriser_;  // null: the colours are stored, or there are no images
+};
 
 /// Calibrates the panoramic head of a session by the colours of its map; nullopt if there are no panoramas within the
 /// time of the trajectory. `odometry`: see laser_mapper::ViewCalibrator.

@@ -187,14 +187,9 @@ using ColouredTile = std::function<void(const laser_mapper::Tile& tile, const st
 
 void forEachColouredTile(Store& store, const LaserMap& map, const MappedSessions& mapped, double memory_mb,
                          const ColouredTile& take) {
-  const auto colouriser = makeColouriser(store, mapped.sessions, mapped.parameters->voxel, memory_mb);
-  if (colouriser) {
-    map.forEachTile(
-        [&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) { colouriser->addSurface(points); });
-    colouriser->equalise();
-  }
+  MapColours colours(store, map, mapped.sessions, memory_mb, false);
   map.forEachTile([&](const laser_mapper::Tile& tile, std::vector<MapPoint> points) {
-    if (colouriser) colouriser->colour(points);
+    colours.colour(tile, points);
     take(tile, points);
   });
 }

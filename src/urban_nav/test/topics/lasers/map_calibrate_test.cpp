@@ -10,7 +10,10 @@
 #include "commands/stages.hpp"
 #include "map/map_command.hpp"
 #include "support/shared_drive.hpp"
+#include "topics/lasers/map_export.hpp"
 #include "urban_nav_input/testing/folders.hpp"
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/tile_colours.hpp"
 
 namespace urban_nav {
 namespace {
@@ -25,6 +28,29 @@ int runCommand(const std::vector<std::string>& words) {
 nlohmann::json readCalibration(const std::string& folder) {
   const auto summary = nlohmann::json::parse(urban_nav_input::testing::readFile(folder + "/summary.json"));
   return summary.at("laser_mapper").at("calibration").at(0);
+}
+
+/// An export reads the colours that `map` stored, and computes the same ones if they are missing.
+void expectStoredColours(const std::string& folder) {
+  using urban_nav_store::TileColours;
+  const std::string file = folder + "/export.ply", map = urban_nav_input::testing::readFile(folder + "/map.ply");
+  urban_nav_store::Store store(folder + "/session.db", urban_nav_store::Access::Write);
+  const auto sessions = urban_nav_store::readMaps(store, urban_nav_store::selectSessions(store, {})).front();
+  urban_nav_store::TableStore<TileColours> rows(store);
+  std::vector<TileColours> stored;
+  rows.forEach(sessions.front().session.id, [&](const TileColours& row) { stored.push_back(row); });
+  ASSERT_GT(stored.size(), 1U);
+  exportMap(store, sessions, {file, "", "", "", ""}, 100.0);
+  EXPECT_TRUE(urban_nav_input::testing::readFile(file) == map) << "with stored colours";
+  for (TileColours& row : stored) rows.remove(row);
+  exportMap(store, sessions, {file, "", "", "", ""}, 100.0);
+  EXPECT_TRUE(urban_nav_input::testing::readFile(file) == map) << "with computed colours";
+  for (TileColours& row : stored) {
+    row.digest = "of another map";
+    rows.put(row);
+  }
+  exportMap(store, sessions, {file, "", "", "", ""}, 100.0);
+  EXPECT_TRUE(urban_nav_input::testing::readFile(file) == map) << "with colours of another map in the store";
 }
 
 /// Ten seconds of a drive: the head of the panoramic cameras is turned to the left by 2 deg from where it is stated to
@@ -53,6 +79,7 @@ TEST(MapCalibrate, FindsATurnedHeadSaysSoAndColoursTheMapWithIt) {
   EXPECT_NE(urban_nav_input::testing::readFile(plain + "/map.ply"),
             urban_nav_input::testing::readFile(calibrated + "/map.ply"))
       << "its colours";
+  expectStoredColours(calibrated);
   EXPECT_EQ(urban_nav_input::testing::readFile(plain + "/trajectory.tum"),
             urban_nav_input::testing::readFile(calibrated + "/trajectory.tum"));
 }
