@@ -21,6 +21,7 @@ constexpr double kRangeScale = 5e-4;     // relative error common to all ranges:
                                          // m
 constexpr double kReach = 60.0;          // edges of a cube: distance at which beams of 0.5 deg are half an edge apart
 constexpr int kStartRounds = 4;          // rounds of mutual deskewing of the first two sweeps
+constexpr double kConsecutive = 2.0;     // sweep durations between the reference times of consecutive sweeps, at most
 constexpr double kStartStep = 0.3;       // m between start positions of the second sweep
 constexpr double kStartSpeed = 40.0;     // m/s, maximum speed of the search
 constexpr double kStartSteps = 12.0;     // maximum number, forward and backward
@@ -134,7 +135,16 @@ void Pipeline::beginMap(const SweepPoints& points, const SweepMotion& motion) {
   pruned_at_ = T_odom_base_.t();
 }
 
-Pipeline::Aligned Pipeline::align(const SweepPoints& points, const Prediction& prediction, const Pose& guess) {
+Pipeline::StartMotion Pipeline::startMotion(const Pose& T_first_second, double seconds, const SweepMotion& change) {
+  // Mean velocity of the step, and velocities and accelerations of a motion of constant jerk at its ends.
+  const Vector6d mean = urban_nav_core::logSe3(T_first_second) / seconds + seconds / 12.0 * change.acceleration;
+  const Vector6d acceleration = change.twist / seconds;
+  return {{mean - 0.5 * change.twist, acceleration - 0.5 * change.acceleration},
+          {mean + 0.5 * change.twist, acceleration + 0.5 * change.acceleration}};
+}
+
+Pipeline::Aligned Pipeline::align(const SweepPoints& points, const Prediction& prediction, const Pose& guess,
+                                  const std::optional<StartMotion>& start) {
   Aligned aligned;
   const Pose predicted = T_odom_base_ * prediction.T_last_now;
   aligned.registration.T_odom_base = guess;
@@ -144,7 +154,7 @@ Pipeline::Aligned Pipeline::align(const SweepPoints& points, const Prediction& p
   options.coarse_level = prediction.is_measured ? 0 : 1;
   options.start_sigma = prediction.is_measured ? 0.0 : motion_.isKnown() ? kPredictedStart : kUnknownStart;
   const bool is_timed = parameters_.deskew && points.last_s > points.first_s && prediction.seconds > 0.0;
-  if (is_timed && first_.p.empty()) {  // the first two sweeps have the mean motion between them
+  if (is_timed) {
     options.velocity_sigma = parameters_.acceleration * prediction.seconds;
     options.rate_sigma = parameters_.angular_acceleration * prediction.seconds;
     options.acceleration_sigma = parameters_.acceleration;
@@ -154,11 +164,11 @@ Pipeline::Aligned Pipeline::align(const SweepPoints& points, const Prediction& p
   for (int round = 0; round < rounds; ++round) {
     if (is_timed) {
       const Pose T_last_now = T_odom_base_.inverse() * aligned.registration.T_odom_base;
-      const Vector6d expected = motion_.sweepTwist(T_last_now, prediction.seconds);
-      const bool is_estimated = round > 0 && options.velocity_sigma > 0.0;
-      aligned.motion =
-          is_estimated ? aligned.motion + aligned.registration.motion_change : SweepMotion{expected, Vector6d::Zero()};
-      options.motion_offset = {aligned.motion.twist - expected, aligned.motion.acceleration};
+      const SweepMotion expected =
+          start ? start->first : SweepMotion{motion_.sweepTwist(T_last_now, prediction.seconds), Vector6d::Zero()};
+      if (round > 0) aligned.motion = aligned.motion + aligned.registration.motion_change;
+      else aligned.motion = start ? start->second : expected;
+      options.motion_offset = aligned.motion - expected;
     }
     aligned.points = deskew(points, aligned.motion);
     const std::vector<Patch> patches = makePatches(aligned.points, points.time, parameters_.cell);
@@ -205,15 +215,19 @@ Pipeline::Aligned Pipeline::alignSecond(const SweepPoints& points, const Predict
   Pose guess = is_known ? T_odom_base_ * prediction.T_last_now : searchStart(points, prediction);
   Aligned aligned;
   const SweepPoints first = first_;
+  const double seconds = prediction.seconds;
+  // Sweeps with a gap between them have no common acceleration.
+  const bool are_consecutive = seconds < kConsecutive * (points.last_s - points.first_s);
+  SweepMotion change;  // from the first sweep to the second
   for (int round = 0; round < kStartRounds; ++round) {
-    SweepMotion motion;
-    if (parameters_.deskew && prediction.seconds > 0.0)
-      motion.twist = urban_nav_core::logSe3(T_odom_first.inverse() * guess) / prediction.seconds;
+    std::optional<StartMotion> start;
+    if (parameters_.deskew && seconds > 0.0) start = startMotion(T_odom_first.inverse() * guess, seconds, change);
     --sweep_;  // the map belongs to the previous sweep
-    beginMap(first, motion);
+    beginMap(first, start ? start->first : SweepMotion());
     ++sweep_;
-    aligned = align(points, prediction, guess);
+    aligned = align(points, prediction, guess, start);
     guess = aligned.registration.T_odom_base;
+    if (start && are_consecutive) change = aligned.motion + aligned.registration.motion_change - start->first;
   }
   return aligned;
 }

@@ -48,7 +48,14 @@ class Pipeline {
   SweepMotion knownMotion() const;
   void beginMap(const SweepPoints& points, const SweepMotion& motion);
   Pose searchStart(const SweepPoints& points, const Prediction& prediction);
-  Aligned align(const SweepPoints& points, const Prediction& prediction, const Pose& guess);
+  /// Motions within the first two sweeps of a map.
+  struct StartMotion {
+    SweepMotion first, second;
+  };
+  /// Returns these motions for a step of `seconds` between the sweeps. `change`: from the first motion to the second.
+  static StartMotion startMotion(const Pose& T_first_second, double seconds, const SweepMotion& change);
+  Aligned align(const SweepPoints& points, const Prediction& prediction, const Pose& guess,
+                const std::optional<StartMotion>& start = std::nullopt);
   Aligned alignSecond(const SweepPoints& points, const Prediction& prediction);
   void accept(const Aligned& aligned, const SweepPoints& points, const Prediction& prediction,
               const urban_nav_core::Sweep& sweep, LaserPose& result);

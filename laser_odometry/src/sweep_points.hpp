@@ -39,6 +39,9 @@ struct SweepMotion {
   SweepMotion operator+(const SweepMotion& other) const {
     return {twist + other.twist, acceleration + other.acceleration};
   }
+  SweepMotion operator-(const SweepMotion& other) const {
+    return {twist - other.twist, acceleration - other.acceleration};
+  }
 };
 
 /// Transforms the points to base_link at the reference time. Error below 1 um for rotations of 0.3 rad in a sweep.

@@ -71,6 +71,21 @@ TEST(LaserOdometry, AVehicleThatSwaysWithinSweepsIsFollowed) {
   EXPECT_LT(run.endError(), 0.02);
 }
 
+TEST(LaserOdometry, AVehicleThatBeginsToTurnInTheFirstSweepIsFollowed) {
+  SpinningLidar lidar;
+  lidar.rings = 32;
+  const auto motion = [](double t) {  // 3 rad/s^2 from the begin of the first sweep
+    return Pose(urban_nav_core::expSo3({0.0, 0.0, 1.5 * std::pow(t + 0.05, 2)}), Vector3d::Zero());
+  };
+  for (const std::uint64_t world : {3, 7}) {
+    const Driven run = drive(makeStreet(world), lidar, motion, 4);
+    for (std::size_t i = 1; i < run.poses.size(); ++i) {
+      EXPECT_LT((run.poses[i].T_odom_base.t() - run.truth[i].t()).norm(), 0.01) << world << " " << i;
+      EXPECT_LT(urban_nav_core::angleBetween(run.poses[i].T_odom_base, run.truth[i]), 1e-3) << world << " " << i;
+    }
+  }
+}
+
 TEST(LaserOdometry, ATunnelIsNamedAndDoesNotRunAway) {
   const Driven run = drive(makeTunnel(), SpinningLidar(), makeDrive(5.0, 0.0), 12);
   for (std::size_t i = 1; i < run.poses.size(); ++i) {
