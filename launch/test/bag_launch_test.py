@@ -1,8 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """bag.launch as a user starts it: once at three times the speed, once paused, once looped; and against the offline command."""
+import sqlite3
 import subprocess
 import sys
+from contextlib import closing
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -106,11 +108,17 @@ class BagLaunch(LaunchCase):
         stamps = [stamp_of(message) for message in self.listener.odometry]
         self.assertTrue(any(b < a for a, b in pairs(stamps)), "time went back")
 
-    def test_ends_with_the_bag_if_told_to(self):
-        self.play(exit="true", rate=3)
+    def test_ends_with_the_bag_if_told_to_when_all_of_it_is_stored(self):
+        store = Path(self.folder) / "exit.db"
+        self.play(exit="true", rate=3, paused="true", store=store)
+        self.expect(lambda: "/vo/relative_pose" in connections("/pose_graph"), lambda: f"only {connections('/pose_graph')}")
+        self.play_on()
         self.assertTrue(self.launched.ended(PATIENCE), self.launched.output())
         self.assertEqual(self.launched.process.returncode, 0)
-        self.assertTrue(self.listener.odometry)
+        self.assertNotIn("does not finish", self.launched.output())
+        self.assertTrue(self.listener.frames)
+        with closing(sqlite3.connect(f"file:{store}?mode=ro", uri=True)) as file:
+            self.assertEqual(file.execute("SELECT COUNT(*) FROM node").fetchone()[0], len(self.listener.frames))
 
     def test_rviz_shows_what_is_there(self):
         self.play(loop="true", recognise_places="true")

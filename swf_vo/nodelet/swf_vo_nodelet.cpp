@@ -33,13 +33,13 @@ class SwfVoStage {
     return false;
   }
   std::string reset() {
-    sessions_->end("reset");
+    sessions_->end(LiveOdometry::kReset);
     return "session ended; the next pair begins a new one";
   }
-  void finish(std::chrono::milliseconds /*limit*/) { sessions_->end("shutdown"); }
+  void finish(std::chrono::milliseconds /*limit*/) { sessions_->end(LiveOdometry::kFinished); }
   static constexpr int kFinishOrder = 0;  // the other stages receive the flushed poses
   void close() {
-    if (ros::ok()) sessions_->end("shutdown");
+    if (ros::ok()) sessions_->end(LiveOdometry::kFinished);
   }
   urban_nav_live::StageReport report() const;
 
@@ -97,7 +97,7 @@ void SwfVoStage::begin(const StereoSessions::Camera& camera) {
 
 void SwfVoStage::process(urban_nav_ros::DecodedPair& pair) {
   for (const std::string& fault : pair.faults) node_.logWarning("image", fault);
-  odometry_->process(pair.assembled);
+  odometry_->process(pair.assembled, node_.loop().backlog());
 }
 
 void SwfVoStage::end(const std::string& why) {

@@ -132,6 +132,7 @@ urban_nav_live::StageReport GraphWorker::report() const {
     report.summary = (status_.sentence.empty() ? std::string(toString(status_.health)) : status_.sentence) +
                      "; not stored: " + store.fault;
   }
+  report.warn(graph_->warning());
   report.add("revision", figures_.revision);
   report.add("sessions", figures_.sessions);
   report.add("sessions joined to this one", figures_.sessions_joined);

@@ -101,6 +101,8 @@ class LiveGraph {
   virtual void syncStore() = 0;
   virtual urban_nav_live::StoreState storeState() const = 0;
   virtual urban_nav_core::Status status() const = 0;
+  /// Returns a warning about the active session, apart from that of the status; empty: none.
+  virtual std::string warning() const { return {}; }
 
   virtual std::int64_t revision() const = 0;
   /// Returns the stamp of the newest pose of the active session; 0: none.

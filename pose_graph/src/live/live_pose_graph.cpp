@@ -2,6 +2,7 @@
 #include "live/live_pose_graph.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -75,6 +76,7 @@ void LivePoseGraph::follow(const urban_nav_core::SessionStep& step) {
   if (!is_next) return;
   prepareSession(step.from);
   announced_ = urban_nav_core::sessionId(step.session);
+  announced_start_ = step.session ? step.session->start : step.from;
   const std::vector<urban_nav_store::Session> resumable = resumableSessions();
   const bool is_resumable = graph_.hasSession(announced_) && resumable_.count(announced_) > 0;
   // An id whose poses were reset or loaded from elsewhere is not reused.
@@ -149,7 +151,10 @@ void LivePoseGraph::endSession() {
 void LivePoseGraph::add(const urban_nav_core::SessionStep& step) {
   follow(step);
   odometry_time_.advance(step.to);
+  const Track* track = running();
+  const bool is_gap = track != nullptr && !track->stamps.empty() && step.from > track->stamps.back();
   if (!graph_.addOdometry(session_, step)) return;
+  changed_ = changed_ || is_gap;  // so that the state of the graph is published
   const auto& tracks = graph_.tracks();
   for (std::size_t i = 0; i < tracks.size(); ++i)
     if (tracks[i].session == session_) revisions_[i].grow(tracks[i].stamps.size(), graph_.revision());
@@ -365,6 +370,16 @@ urban_nav_core::Status LivePoseGraph::status() const {
   const std::string fault = link_.state().fault;
   if (fault.empty()) return graph_.status();
   return {urban_nav_core::Health::Degraded, static_cast<int>(Trouble::NotStored), "nothing is stored: " + fault};
+}
+
+std::string LivePoseGraph::warning() const {
+  constexpr double kTolerated = 1.0;  // s, until a stage that is started with the odometry is connected to it
+  const Track* track = running();
+  if (session_ != announced_ || track == nullptr || track->stamps.empty()) return {};
+  const double missing = urban_nav_core::secondsBetween(announced_start_, track->stamps.front());
+  if (missing <= kTolerated) return {};
+  return "the graph lacks the first " + std::to_string(std::lround(missing)) +
+         " s of the session, from before it received odometry";
 }
 
 LiveGraph::Outcome LivePoseGraph::finish(const Relaxed& relaxed) {

@@ -50,6 +50,7 @@ class LivePoseGraph : public LiveGraph {
   void syncStore() override;
   urban_nav_live::StoreState storeState() const override;
   urban_nav_core::Status status() const override;
+  std::string warning() const override;
 
   std::int64_t revision() const override { return graph_.revision(); }
   StampNs newest() const override;
@@ -113,6 +114,7 @@ class LivePoseGraph : public LiveGraph {
   // Announced by odometry; differs from session_ after new_session and reset; empty: odometry does not announce its
   // session.
   SessionId announced_;
+  StampNs announced_start_ = 0;  // first frame of the announced session
   int sessions_begun_ = 0;
   std::int64_t given_up_ = 0;                               // number of closures
   urban_nav_live::TimeJumpDetector odometry_time_;          // of the active session

@@ -218,6 +218,24 @@ TEST_F(LivePoseGraphTest, ASessionOfTheOdometryGoesOnAfterARestartWhateverWasLos
   EXPECT_EQ(stored().chains[0].session.id, announce(1)->id);
 }
 
+TEST_F(LivePoseGraphTest, MissingOdometryIsReportedAtOnce) {
+  auto graph = begin();
+  drive(*graph, 60, 65, announce(1));  // kPeriod is 50 ms
+  EXPECT_EQ(graph->warning(), "the graph lacks the first 3 s of the session, from before it received odometry");
+  drive(*graph, 0, 5, announce(2));
+  EXPECT_EQ(graph->warning(), "");
+  relaxAll(*graph);
+  drive(*graph, 5, 8, announce(2));
+  EXPECT_FALSE(graph->isRelaxationPending());
+  drive(*graph, 9, 10, announce(2));
+  ASSERT_TRUE(graph->isRelaxationPending());
+  EXPECT_EQ(graph->relax().reason_name, toString(Trouble::BrokenChain));
+  graph.reset();
+  graph = begin();
+  drive(*graph, 60, 65, announce(2));
+  EXPECT_EQ(graph->warning(), "") << "its first poses are stored";
+}
+
 TEST_F(LivePoseGraphTest, AClosureOfTheNextSessionWaitsForItsOdometry) {
   auto graph = begin();
   drive(*graph, 0, kLap, announce(1));

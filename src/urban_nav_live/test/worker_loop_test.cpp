@@ -6,6 +6,7 @@
 #include <atomic>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace urban_nav_live {
@@ -33,6 +34,26 @@ TEST(WorkerLoop, BeginsHandlesInputsInOrderAndEnds) {
   EXPECT_EQ(loop.ask([] { return 7; }, kLoopWait), 7);
   loop.stop();
   EXPECT_EQ(events, (std::vector<std::string>{"begin", "1", "2", "end"}));
+}
+
+TEST(WorkerLoop, BacklogIsTheShareOfWaitingInputsWithThoseAlreadyTaken) {
+  std::vector<double> backlogs;
+  Loop loop(8);
+  loop.start("test", stepsWith([&](int&) {}));
+  EXPECT_EQ(loop.ask([] { return 0; }, kLoopWait), 0);
+  EXPECT_EQ(loop.backlog(), 0.0);
+  loop.stop();
+
+  Loop full(8);
+  for (int i = 0; i < 4; ++i) full.push(i);
+  EXPECT_EQ(full.backlog(), 0.5);
+  full.start("test", stepsWith([&](int&) {
+               if (backlogs.empty()) full.push(4);
+               backlogs.push_back(full.backlog());
+             }));
+  while (full.backlog() > 0.0) std::this_thread::yield();
+  full.stop();
+  EXPECT_EQ(backlogs, (std::vector<double>{0.5, 0.375, 0.25, 0.125, 0.0}));
 }
 
 TEST(WorkerLoop, AQuestionIsAnsweredAfterTheInputsBeforeIt) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pluginlib/class_list_macros.hpp>
 
+#include <chrono>
 #include <cmath>
 
 #include "urban_nav_ros/sensor_inputs.hpp"
@@ -30,6 +31,8 @@ class StereoRectifyStage {
     rectifier_->reset();
     return "waiting images were dropped";
   }
+  void finish(std::chrono::milliseconds /*limit*/) {}  // all images so far are published when it is called
+  static constexpr int kFinishOrder = -1;              // before the odometry, which receives them
   void close() {}
   urban_nav_live::StageReport report() const { return rectifier_->report(); }
 

@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kPoll{50};
 constexpr std::chrono::milliseconds kLastMessages{1500};  // time in which roscpp sends pending messages
+// Longest time between the interrupts that roslaunch sends to a nodelet loader and to its manager.
+constexpr std::chrono::milliseconds kInterruptFollows{1000};
 
 volatile std::sig_atomic_t is_interrupted = 0;  // the only type that a signal handler may write
 
@@ -42,7 +44,10 @@ int OrderlyEnd::add(int order, Finish finish) {
 }
 
 void OrderlyEnd::remove(int number) {
-  // The nodelet loaders are interrupted as well, and unload the nodelets.
+  // The nodelet loaders are interrupted as well, and unload the nodelets, possibly before this process is interrupted.
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point latest = Clock::now() + kInterruptFollows;
+  while (is_interrupted == 0 && !ends_ && Clock::now() < latest) std::this_thread::sleep_for(kPoll);
   while (is_interrupted != 0 && !finished_ && !ends_) std::this_thread::sleep_for(kPoll);
   const std::lock_guard<std::mutex> lock(mutex_);
   for (auto each = stages_.begin(); each != stages_.end();)

@@ -5,21 +5,38 @@
 
 namespace swf_vo {
 
+namespace {
+
+// ns; as long as the window of urban_nav_live::FaultRates
+constexpr urban_nav_core::StampNs kNewSession = 10'000'000'000;
+
+}  // namespace
+
 void LiveOdometry::begin(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left) {
   filter_ = std::make_unique<SwfVo>(parameters_, camera, T_base_left);
   fault_.clear();
   motion_ = MotionEstimates();
+  skipped_inputs_.clear();
+  begin_ = newest_ = 0;
   ++sessions_;
 }
 
-void LiveOdometry::process(const urban_nav_core::StereoPairWithMotion& pair) {
+void LiveOdometry::process(const urban_nav_core::StereoPairWithMotion& pair, double backlog) {
+  skipped_inputs_.insert(skipped_inputs_.end(), pair.inputs.begin(), pair.inputs.end());
+  if (!thinning_.keeps(backlog)) {
+    ++skipped_;
+    return;
+  }
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
-  const Frame& frame = filter_->process(pair.pair, pair.inputs);
+  const Frame& frame = filter_->process(pair.pair, skipped_inputs_);
+  skipped_inputs_.clear();
   process_ms_ = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   ++frames_;
+  newest_ = frame.stamp;
   status_ = frame.status;
-  if (status_.health == urban_nav_core::Health::Lost) ++lost_frames_;
+  const bool is_image_missing = status_.reason == static_cast<int>(Reason::ImageMissing);  // counted by StereoSessions
+  if (status_.health == urban_nav_core::Health::Lost && !is_image_missing) ++lost_frames_;
   statistics_ = frame.statistics;
   if (frame.frame == 0) {
     begin_ = frame.stamp;
@@ -37,6 +54,7 @@ void LiveOdometry::end(const std::string& why) {
     if (listener_.settled) listener_.settled(settled);
   filter_.reset();
   waiting_ = "no session (" + why + ")";
+  previous_end_ = why == kReset || why == kFinished ? "" : why;
 }
 
 urban_nav_live::StageReport LiveOdometry::report() const {
@@ -47,6 +65,8 @@ urban_nav_live::StageReport LiveOdometry::report() const {
     report.status.health = urban_nav_core::Health::Ok;  // no frame; the warning below determines the level
     report.summary = fault_.empty() ? waiting_ : fault_;
     report.is_warning = true;
+  } else if (!previous_end_.empty() && newest_ - begin_ < kNewSession) {
+    report.warn("a new session began, because " + previous_end_);
   }
   report.add("features", statistics_.features);
   report.add("tracked", statistics_.tracked);
@@ -64,6 +84,10 @@ urban_nav_live::StageReport LiveOdometry::report() const {
   report.add("time of the last frame (ms)", process_ms_);
   report.add("frames", frames_);
   report.add("frames lost", lost_frames_);
+  report.add("pairs skipped", skipped_);
+  report.fault_counts.push_back({"pairs were skipped", skipped_, frames_ + skipped_,
+                                 "the stage is slower than the camera; lower `features` or the rate of the camera, or "
+                                 "free processor time"});
   report.fault_counts.push_back({"frames have a pose by prediction only", lost_frames_, frames_,
                                  "too few features: check lens, light and exposure, or drive more slowly"});
   report.add("sessions", sessions_);

@@ -5,9 +5,11 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "swf_vo/swf_vo.hpp"
 #include "urban_nav_core/sequence/stereo_assembler.hpp"
+#include "urban_nav_live/pair_thinning.hpp"
 #include "urban_nav_live/session_namer.hpp"
 #include "urban_nav_live/stage_report.hpp"
 
@@ -17,6 +19,8 @@ namespace swf_vo {
 /// robot. Used by one thread.
 class LiveOdometry {
  public:
+  /// Reasons for the end of a session by the operator.
+  static constexpr const char *kReset = "reset", *kFinished = "finished";
   struct Listener {
     std::function<void(const Frame& frame, const urban_nav_core::StereoPair& pair, double process_ms)> frame;
     /// Receives smoothed poses that leave the window when a session ends.
@@ -33,9 +37,12 @@ class LiveOdometry {
   /// Begins a session. `T_base_left`: pose of the rectified left camera. Throws UserError if the calibration is
   /// invalid.
   void begin(const urban_nav_core::StereoCamera& camera, const urban_nav_core::Pose& T_base_left);
-  /// Processes a pair. Requires a running session.
-  void process(const urban_nav_core::StereoPairWithMotion& pair);
-  /// Ends the session: flushes smoothed poses to the listener. `why`: for the report.
+  /// Processes a pair, or skips it because of overload (urban_nav_live::PairThinning): its motion inputs are then used
+  /// with the next pair that is processed. `backlog`: waiting inputs as a share of the queue's capacity. Requires a
+  /// running session.
+  void process(const urban_nav_core::StereoPairWithMotion& pair, double backlog = 0.0);
+  /// Ends the session: flushes smoothed poses to the listener. `why`: for the report, which warns of it for the first
+  /// seconds of the next session, unless it is kReset or kFinished.
   void end(const std::string& why);
   /// Sets the reason why no session can begin; empty: no fault.
   void setFault(const std::string& fault) { fault_ = fault; }
@@ -54,15 +61,18 @@ class LiveOdometry {
   const Listener listener_;
   const std::string recording_;
   urban_nav_live::SessionNamer namer_;
+  urban_nav_live::PairThinning thinning_;
   urban_nav_core::OdometrySessionPtr session_;
   std::unique_ptr<SwfVo> filter_;
   urban_nav_core::Status status_;
   Statistics statistics_;
   MotionEstimates motion_;
-  urban_nav_core::StampNs begin_ = 0;  // start of the session
+  urban_nav_core::StampNs begin_ = 0, newest_ = 0;  // first and newest frame of the session
   double process_ms_ = 0.0;
-  std::int64_t frames_ = 0, lost_frames_ = 0, sessions_ = 0;
+  std::int64_t frames_ = 0, lost_frames_ = 0, sessions_ = 0, skipped_ = 0;
+  std::vector<urban_nav_core::MotionInput> skipped_inputs_;  // since the last processed pair
   std::string waiting_ = "no images yet", fault_;
+  std::string previous_end_;  // why the previous session ended; empty: none, or by the operator
 };
 
 }  // namespace swf_vo

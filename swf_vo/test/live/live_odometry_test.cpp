@@ -73,6 +73,42 @@ TEST(LiveOdometry, EqualsTheFilterToTheLastBit) {
   EXPECT_EQ(live.settled.size(), filter.flush().size());
 }
 
+TEST(LiveOdometry, UsesTheMotionOfSkippedPairsWithTheNextOne) {
+  RenderedSequence sequence = liveRoom();
+  const auto camera = makeCamera(sequence.options().camera);
+  const auto motionBefore = [&](int i) {
+    urban_nav_core::MotionInput input;
+    input.from = sequence.stamp(i - 1);
+    input.to = sequence.stamp(i);
+    input.T_from_to = Pose(urban_nav_core::Quaterniond::Identity(), {0.1 * i, 0.0, 0.0});
+    input.information = 1e4 * urban_nav_core::Matrix6d::Identity();
+    return input;
+  };
+  Recorded live;
+  live.odometry.begin(camera, Pose());
+  live.play(sequence, 0, 1);
+  StereoPairWithMotion pair;
+  pair.inputs = {motionBefore(1)};
+  live.odometry.process(pair, 0.9);
+  ASSERT_EQ(live.frames.size(), 1u);
+  pair.pair = sequence.frame(2).pair();
+  pair.inputs = {motionBefore(2)};
+  live.odometry.process(pair, 0.1);
+
+  SwfVo filter(Parameters(), camera, Pose());
+  filter.process(sequence.frame(0).pair());
+  const Frame& frame = filter.process(sequence.frame(2).pair(), {motionBefore(1), motionBefore(2)});
+  ASSERT_EQ(live.frames.size(), 2u);
+  EXPECT_EQ(live.frames.back().T_odom_base.pose.t(), frame.T_odom_base.pose.t());
+  EXPECT_EQ(live.frames.back().T_odom_base.covariance, frame.T_odom_base.covariance);
+  const auto report = live.odometry.report();
+  EXPECT_EQ(findFigure(report, "pairs skipped"), "1");
+  ASSERT_FALSE(report.fault_counts.empty());
+  EXPECT_EQ(report.fault_counts.front().what, "pairs were skipped");
+  EXPECT_EQ(report.fault_counts.front().faults, 1);
+  EXPECT_EQ(report.fault_counts.front().total, 3);
+}
+
 TEST(LiveOdometry, EachSessionStartsAtTheOrigin) {
   RenderedSequence sequence = liveRoom();
   Recorded live;
@@ -85,6 +121,29 @@ TEST(LiveOdometry, EachSessionStartsAtTheOrigin) {
   EXPECT_EQ(live.odometry.sessions(), 2);
   EXPECT_EQ(live.frames.back().frame, 1);
   EXPECT_LT(live.frames[3].T_odom_base.pose.t().norm(), 1e-12) << "m; but for rounding";
+}
+
+TEST(LiveOdometry, WarnsForTenSecondsOfASessionThatTheOperatorHasNotBegun) {
+  RenderedSequence sequence = liveRoom();
+  const auto warningsAfter = [&](const std::string& why, int frames) {
+    Recorded live;
+    live.odometry.begin(makeCamera(sequence.options().camera), Pose());
+    live.play(sequence, 0, 1);
+    EXPECT_TRUE(live.odometry.report().warnings.empty()) << "the first session";
+    live.odometry.end(why);
+    live.odometry.begin(makeCamera(sequence.options().camera), Pose());
+    live.play(sequence, 0, 1);
+    StereoPairWithMotion last;
+    last.pair = sequence.frame(1).pair();
+    last.pair.stamp = sequence.stamp(0) + frames * (sequence.stamp(1) - sequence.stamp(0));
+    live.odometry.process(last);
+    return live.odometry.report().warnings;
+  };
+  const int ten_seconds = static_cast<int>(10'000'000'000 / (sequence.stamp(1) - sequence.stamp(0)));
+  EXPECT_EQ(warningsAfter("time went back", ten_seconds - 1),
+            (std::vector<std::string>{"a new session began, because time went back"}));
+  EXPECT_TRUE(warningsAfter("time went back", ten_seconds + 1).empty());
+  EXPECT_TRUE(warningsAfter(LiveOdometry::kReset, 1).empty());
 }
 
 TEST(LiveOdometry, EachRoundOfARecordingHasAnIdOfItsOwn) {

@@ -64,6 +64,14 @@ class BoundedQueue {
     const std::lock_guard<std::mutex> lock(mutex_);
     capacity_ = capacity;
   }
+  std::size_t capacity() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return capacity_;
+  }
+  std::size_t size() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return items_.size();
+  }
   bool isClosed() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return closed_;

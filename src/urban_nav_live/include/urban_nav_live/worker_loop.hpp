@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <deque>
 #include <functional>
 #include <future>
 #include <memory>
@@ -60,6 +62,12 @@ class WorkerLoop {
   /// Returns the number of inputs and questions dropped because the queue was full.
   std::int64_t dropped() const { return queue_.dropped(); }
 
+  /// Returns the number of inputs that wait for the worker, as a share of the capacity; at most 2, since the worker
+  /// takes all waiting inputs at once.
+  double backlog() const {
+    return static_cast<double>(taken_ + queue_.size()) / static_cast<double>(queue_.capacity());
+  }
+
   /// Evaluates `question` in the worker's thread, after all inputs pushed before. Blocks. Returns nullopt if it was
   /// dropped or not evaluated within `timeout` (it may still be evaluated later). Rethrows the exceptions of
   /// `question`. Requires that the caller is not the worker.
@@ -85,7 +93,10 @@ class WorkerLoop {
     if (steps_.begin) steps_.begin();
     bool busy = false;
     while (!queue_.isClosed()) {
-      for (Item& item : queue_.takeAll(busy ? std::chrono::milliseconds(0) : period_)) {
+      std::deque<Item> items = queue_.takeAll(busy ? std::chrono::milliseconds(0) : period_);
+      taken_ = items.size();
+      for (Item& item : items) {
+        --taken_;
         if (item.index() == 1) std::get<1>(item)();
         else steps_.handle(std::get<0>(item));
         if (queue_.isClosed()) break;
@@ -97,6 +108,7 @@ class WorkerLoop {
 
   const std::chrono::milliseconds period_;
   BoundedQueue<Item> queue_;
+  std::atomic<std::size_t> taken_{0};  // inputs that the worker has taken from the queue and not yet begun
   Steps steps_;  // constant while the thread runs
   std::thread thread_;
 };

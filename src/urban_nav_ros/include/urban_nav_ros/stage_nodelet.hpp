@@ -18,8 +18,8 @@
 namespace urban_nav_ros {
 
 /// Nodelet of a live stage. Callbacks convert and enqueue; one worker passes the inputs to the stage, which publishes.
-/// Provides fatal errors for invalid parameters, the services ~reset, ~pause and ~resume, <stage>/status, and
-/// /diagnostics once a second.
+/// Provides fatal errors for invalid parameters, the services ~reset, ~pause, ~resume and, for stages with finish(),
+/// ~finish; <stage>/status, and /diagnostics once a second.
 ///
 /// A stage is a class with its topics and converters, and an algorithm that is independent of ROS:
 ///
@@ -44,8 +44,9 @@ namespace urban_nav_ros {
 ///       bool idle() { return false; }
 ///       std::string reset() { counter_ = {}; return "the count is 0"; }
 ///       void close() {}                                      // before the nodelet ends
-///       // Optional. Called when the process is interrupted: publishes or decides pending data within `limit`.
-///       // All messages of topics with TopicOptions::is_awaited have been handled before.
+///       // Optional. Called when the process is interrupted, and by ~finish after all earlier inputs: publishes or
+///       // decides pending data within `limit`; later inputs begin a new session. After an interrupt, all messages of
+///       // topics with TopicOptions::is_awaited have been handled before.
 ///       void finish(std::chrono::milliseconds limit);
 ///       // Optional. Stages of a process finish in ascending order; 0 is that of odometry.
 ///       static constexpr int kFinishOrder = 1;
@@ -118,6 +119,7 @@ class StageNodelet : public nodelet::Nodelet {
       node_->gate().resume();
       response.message = "the session continues";
     });
+    advertiseFinish(0);
   }
 
   // Members of the stage are preferred in overload resolution: int needs no conversion.
@@ -143,7 +145,21 @@ class StageNodelet : public nodelet::Nodelet {
   }
   void finish(long) {}
 
+  template <typename S = Stage>
+  auto advertiseFinish(int) -> decltype(std::declval<S&>().finish(std::chrono::milliseconds())) {
+    using std_srvs::Trigger;
+    node_->template advertiseService<Trigger>("finish", [this](const Trigger::Request&, Trigger::Response& response) {
+      const auto finish = [this] {
+        stage_->finish(kPatience);
+        return std::string("all inputs so far are processed");
+      };
+      response.message = node_->ask(finish, kPatience);
+    });
+  }
+  void advertiseFinish(long) {}
+
   static constexpr std::chrono::milliseconds kLeastDrain{500};
+  static constexpr std::chrono::hours kPatience{1};  // of ~finish, whose caller waits for the result
 
   std::unique_ptr<Node> node_;
   std::unique_ptr<Stage> stage_;  // uses the node
