@@ -23,7 +23,6 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-constexpr double kViewDistance = 0.7, kViewAngle = 0.26;  // m, rad: between views of one camera
 constexpr StampNs kLongestViewGap = 500'000'000;
 
 struct SessionViews {

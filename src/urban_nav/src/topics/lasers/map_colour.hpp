@@ -12,6 +12,8 @@
 
 namespace urban_nav {
 
+constexpr double kViewDistance = 0.7, kViewAngle = 0.26;  ///< m, rad: between views of one camera
+
 /// Returns the colouriser of a map from stored panoramas of its sessions, about 0.7 m or 15 deg apart; null if there
 /// are none within the time of the trajectories. The store must outlive it. `memory_mb`: for decoded images.
 std::unique_ptr<laser_mapper::Colouriser> makeColouriser(urban_nav_store::Store& store,
