@@ -40,7 +40,7 @@ constexpr double kLongGapPeriods = 3.5;
 constexpr int kLandmarksPerFeature = 4;
 
 constexpr const char* kStateName = "swf_vo";
-constexpr std::uint32_t kStateVersion = 9;  // incremented with every change of the archived bytes
+constexpr std::uint32_t kStateVersion = 10;  // incremented with every change of the archived bytes
 
 WindowOptions windowOptions(const Parameters& parameters, const StereoCamera& camera, const Ablation& ablation) {
   WindowOptions options;
