@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fabmap_node/model/place_model.hpp"
+#include "fabmap_node/store/model_rows.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_model.hpp"
@@ -46,11 +47,10 @@ void LivePlaceStore::put(const Session& session, StoredPlace place) {
   if (!is_wanted_) return;
   sessions_.insert(session.id);
   if (begun_.insert(session.id).second)
-    waiting_.emplace_back(
-        [session, model = StoredModel{session.id, model_hash_, "fabmap_node", model_bytes_}](Store& store) {
-          store.sessions().put(session);
-          TableStore<StoredModel>(store).put(model);
-        });
+    waiting_.emplace_back([session, model = toStoredModel(session.id, model_hash_, model_bytes_)](Store& store) {
+      store.sessions().put(session);
+      TableStore<StoredModel>(store).put(model);
+    });
   place.session = session.id;
   place.model = model_hash_;
   waiting_.emplace_back([row = std::move(place)](Store& store) { TableStore<StoredPlace>(store).put(row); });

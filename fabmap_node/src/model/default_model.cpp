@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "fabmap_node/model/place_model.hpp"
@@ -22,6 +24,11 @@ namespace fabmap_node {
 
 std::string_view defaultModelBytes() {
   return {begin_of_default_model, static_cast<std::size_t>(end_of_default_model - begin_of_default_model)};
+}
+
+std::optional<std::string_view> suppliedModel(const std::string& hash) {
+  static const std::string hash_of_default = modelHash(defaultModelBytes());
+  return hash == hash_of_default ? std::optional(defaultModelBytes()) : std::nullopt;
 }
 
 PlaceModel defaultModel() { return parseModel(defaultModelBytes(), "default model"); }

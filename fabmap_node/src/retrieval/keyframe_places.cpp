@@ -13,6 +13,7 @@
 #include "fabmap_node/places/place_index.hpp"
 #include "fabmap_node/recognition/compact_look.hpp"
 #include "fabmap_node/recognition/place_describer.hpp"
+#include "fabmap_node/store/model_rows.hpp"
 #include "fabmap_node/store/place_rows.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_registration/io/jpeg.hpp"
@@ -56,7 +57,7 @@ MapModel modelOfMap(Store& store, const std::vector<SearchedKeyframe>& keyframes
     TableStore<StoredModel>(store).forEach(session, [&](const StoredModel& row) {
       if (row.stage != "fabmap_node") return;
       ++counts[row.hash];
-      bytes.emplace(row.hash, row.bytes);
+      bytes.emplace(row.hash, modelBytes(row, store.path()));
     });
   const auto most =
       std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });

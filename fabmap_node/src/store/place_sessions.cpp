@@ -5,6 +5,7 @@
 
 #include "fabmap_node/decision/travelled_distance.hpp"
 #include "fabmap_node/model/place_model.hpp"
+#include "fabmap_node/store/model_rows.hpp"
 #include "fabmap_node/store/place_rows.hpp"
 #include "urban_nav_store/stored_map.hpp"
 #include "urban_nav_store/table_store.hpp"
@@ -63,7 +64,7 @@ void writePlaces(Store& store, const Session& session, const std::function<void(
                  const std::string& model_bytes) {
   const std::string hash = modelHash(model_bytes);
   store.sessions().put(session);
-  TableStore<StoredModel>(store).put({session.id, hash, "fabmap_node", model_bytes});
+  TableStore<StoredModel>(store).put(toStoredModel(session.id, hash, model_bytes));
   TableStore<StoredPlace> rows(store);
   forEach([&](const MapPlace& place) { rows.put(toStoredPlace(session.id, place.stamp, place.description, hash)); });
 }

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "fabmap_node/model/place_model.hpp"
+#include "fabmap_node/store/model_rows.hpp"
 #include "support/synthetic_places.hpp"
 #include "support/temporary_folder.hpp"
+#include "urban_nav_core/types/error.hpp"
 
 namespace fabmap_node {
 namespace {
@@ -68,6 +70,19 @@ TEST(PlaceSessions, LeavesOutPlacesOfAnotherModel) {
   EXPECT_TRUE(read.sessions.empty());
   EXPECT_EQ(read.other_model, 5u);
 }
+
+TEST(PlaceSessions, AModelOfTheProgramIsStoredByItsHash) {
+  const std::string supplied(defaultModelBytes()), own = "the bytes of another model";
+  const auto by_hash = toStoredModel("session", modelHash(supplied), supplied);
+  EXPECT_TRUE(by_hash.bytes.empty());
+  EXPECT_EQ(modelBytes(by_hash, "s.db"), supplied);
+  const auto whole = toStoredModel("session", modelHash(own), own);
+  EXPECT_EQ(modelBytes(whole, "s.db"), own);
+  EXPECT_THROW(modelBytes({"session", "0123456789abcdef", "fabmap_node", ""}, "s.db"), urban_nav_core::DataError);
+}
+
+// Stores refer to it by its hash: if another model becomes the built-in one, this one has to stay in the program.
+TEST(PlaceSessions, EachModelThatWasBuiltInIsSupplied) { EXPECT_TRUE(suppliedModel("b05cf4b60e3bd296")); }
 
 }  // namespace
 }  // namespace fabmap_node

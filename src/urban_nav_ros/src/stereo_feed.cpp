@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "archive_image.hpp"
 #include "archive_message.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_ros/image.hpp"
@@ -150,7 +151,7 @@ void StereoFeed::archive(urban_nav_core::Archive& archive) {
     items.require(kind < std::variant_size_v<Input>, "a kind of message is unknown");
     if (items.isReading() && kind == 1) input = sensor_msgs::CompressedImageConstPtr();
     if (items.isReading() && kind == 2) input = MotionInput();
-    if (auto* raw = std::get_if<sensor_msgs::ImageConstPtr>(&input)) archiveMessage(items, *raw);
+    if (auto* raw = std::get_if<sensor_msgs::ImageConstPtr>(&input)) archiveImage(items, *raw);
     if (auto* packed = std::get_if<sensor_msgs::CompressedImageConstPtr>(&input)) archiveMessage(items, *packed);
     if (auto* motion = std::get_if<MotionInput>(&input)) items(*motion);
   });

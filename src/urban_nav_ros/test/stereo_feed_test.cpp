@@ -271,5 +271,39 @@ TEST(StereoFeed, GoesOnFromItsState) {
   for (std::size_t cut = 0; cut < messages.size(); ++cut) EXPECT_EQ(play(cut), whole) << "cut before message " << cut;
 }
 
+TEST(StereoFeed, WaitingImagesAreArchivedExactlyAndPacked) {
+  constexpr StampNs kStamp = 5000 * kMs;
+  auto left = boost::make_shared<sensor_msgs::Image>(*image(kStamp, 0)),
+       right = boost::make_shared<sensor_msgs::Image>();
+  for (std::size_t i = 0; i < left->data.size(); ++i) left->data[i] = static_cast<std::uint8_t>(i % kWidth + i / 50);
+  *right = *left;
+  right->step += 8;  // rows with gaps are stored as they are
+  right->data.resize(right->step * right->height, 3);
+  StereoFeed feed(StereoFeed::Options(), calibration());
+  feed.add(Side::Left, sensor_msgs::ImageConstPtr(left));
+  urban_nav_core::Archive one;
+  feed.archive(one);
+  const std::size_t size = one.take().size();
+  EXPECT_LT(size, left->data.size() / 2) << "they are stored as PNG";
+  feed.add(Side::Right, sensor_msgs::ImageConstPtr(right));
+  urban_nav_core::Archive both;
+  feed.archive(both);
+  const std::string bytes = both.take();
+  EXPECT_GT(bytes.size(), size + right->data.size());
+  StereoFeed restored(StereoFeed::Options(), calibration());
+  urban_nav_core::Archive reader(bytes, "feed");
+  restored.archive(reader);
+  reader.finish();
+  for (StereoFeed* each : {&feed, &restored}) each->finish();
+  const std::vector<DecodedPair> expected = drain(feed), found = drain(restored);
+  ASSERT_EQ(found.size(), 1U);
+  ASSERT_EQ(expected.size(), 1U);
+  for (int v = 0; v < kHeight; ++v)
+    for (int u = 0; u < kWidth; ++u) {
+      ASSERT_EQ(found[0].assembled.pair.left.at(u, v), expected[0].assembled.pair.left.at(u, v));
+      ASSERT_EQ(found[0].assembled.pair.right.at(u, v), expected[0].assembled.pair.right.at(u, v));
+    }
+}
+
 }  // namespace
 }  // namespace urban_nav_ros

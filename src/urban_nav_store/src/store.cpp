@@ -119,7 +119,9 @@ void Store::Implementation::rollback() {
 void Store::Implementation::shrink() {
   commit();
   Statement statement = connection.prepare("PRAGMA incremental_vacuum");
-  while (statement.step()) continue;  // one page each
+  while (statement.step()) continue;                                     // one page each
+  Statement log = connection.prepare("PRAGMA wal_checkpoint(PASSIVE)");  // so that close() has little left to write
+  while (log.step()) continue;
 }
 
 void Store::Implementation::close() {

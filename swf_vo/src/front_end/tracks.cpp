@@ -9,6 +9,7 @@
 
 namespace swf_vo {
 
+using urban_nav_core::PatchTemplate;
 using urban_nav_core::PatchWarp;
 using urban_nav_core::Pose;
 using urban_nav_core::StereoCamera;
@@ -66,15 +67,46 @@ void Tracks::end(LandmarkId id) {
   order_.erase(it);
 }
 
+namespace {
+
+/// Makes the template of a track again as prepareTemplate() does. Returns false if the warp is degenerate, or the blur
+/// out of range.
+bool remakeTemplate(const Track& track, const Eigen::Vector2d& blur, const PatchWarp& warp, PatchTemplate& made) {
+  if (!(blur.minCoeff() >= 0.0 && blur.maxCoeff() <= urban_nav_core::kLargestBlur)) return false;
+  if (blur.isZero()) return urban_nav_core::warpTemplate(track.source, warp, made);
+  return urban_nav_core::warpTemplate(urban_nav_core::blurred(track.source, blur), warp, made);
+}
+
+bool isSame(const PatchTemplate& a, const PatchTemplate& b) {
+  return a.value == b.value && a.filter_x == b.filter_x && a.filter_y == b.filter_y && a.filter_gain == b.filter_gain &&
+         a.inverse_hessian == b.inverse_hessian && a.unit_covariance == b.unit_covariance &&
+         a.view_blur == b.view_blur && a.energy == b.energy;
+}
+
+/// Reads or writes a template: only its warp, a fiftieth of its bytes, if the source and the warp give it bit-exactly.
+void archiveTemplate(urban_nav_core::Archive& archive, const Track& track, const Eigen::Vector2d& blur,
+                     PatchTemplate& patch) {
+  PatchTemplate again;
+  bool is_remade = !archive.isReading() && remakeTemplate(track, blur, patch.warp, again) && isSame(again, patch);
+  archive(is_remade);
+  if (!is_remade) return archive(patch);
+  archive(patch.warp.A, patch.warp.bend);
+  if (!archive.isReading()) return;
+  const PatchWarp warp = patch.warp;
+  archive.require(remakeTemplate(track, blur, warp, patch), "the warp or blur of a template is out of range");
+}
+
+}  // namespace
+
 void archive(urban_nav_core::Archive& archive, Track& track) {
   archive(track.id, track.born, track.level, track.noise.squares, track.noise.coordinates);
   archive(track.seen, track.blurred, track.aside, track.missed, track.disagreed);
   archive(track.T_born_odom, track.ray, track.plane, track.slant, track.slant_reach, track.seen_as);
   archive(track.sigma_disparity, track.z, track.information, track.measured, track.source);
-  archive(track.left_ready, track.right_ready);
-  if (track.left_ready) archive(track.in_left);
-  if (track.right_ready) archive(track.in_right);
   archive(track.born_edges, track.blur, track.made_blur_left, track.made_blur_right, track.sharper);
+  archive(track.left_ready, track.right_ready);
+  if (track.left_ready) archiveTemplate(archive, track, track.made_blur_left, track.in_left);
+  if (track.right_ready) archiveTemplate(archive, track, track.made_blur_right, track.in_right);
 }
 
 void Tracks::archive(urban_nav_core::Archive& archive, int levels) {

@@ -98,5 +98,48 @@ TEST(Tracks, WarpOfAPointAtInfinityTurnsOnly) {
   EXPECT_FALSE(warpInto(Side::Left, c, track, Pose(expSo3({0.0, 3.0, 0.0}), Eigen::Vector3d::Zero()), 0.0));
 }
 
+/// A patch with texture in both directions.
+urban_nav_core::PatchSource texturedSource() {
+  urban_nav_core::PatchSource source;
+  for (std::size_t i = 0; i < source.pixels.size(); ++i)
+    source.pixels[i] = static_cast<std::uint8_t>((i * i * 31 + i * 7) % 251);
+  return source;
+}
+
+std::string archived(Track& track) {
+  urban_nav_core::Archive archive;
+  swf_vo::archive(archive, track);
+  return archive.take();
+}
+
+TEST(Tracks, TemplatesAreArchivedByTheirWarps) {
+  Track track;
+  track.source = texturedSource();
+  const std::size_t without = archived(track).size();
+  Eigen::Matrix2d A;
+  A << 1.1, 0.05, -0.02, 0.93;
+  track.made_blur_right = {0.4, 0.2};
+  track.left_ready = urban_nav_core::warpTemplate(track.source, {A, {0.001, 0.002}}, track.in_left);
+  track.right_ready =
+      urban_nav_core::warpTemplate(urban_nav_core::blurred(track.source, track.made_blur_right), A, track.in_right);
+  ASSERT_TRUE(track.left_ready && track.right_ready);
+  const std::string bytes = archived(track);
+  EXPECT_LT(bytes.size(), without + sizeof(urban_nav_core::PatchGrid));
+  Track read;
+  urban_nav_core::Archive archive(bytes, "track");
+  swf_vo::archive(archive, read);
+  archive.finish();
+  EXPECT_EQ(read.in_left.value, track.in_left.value);
+  EXPECT_EQ(read.in_right.filter_x, track.in_right.filter_x);
+  EXPECT_EQ(read.in_right.unit_covariance, track.in_right.unit_covariance);
+
+  track.in_right.value.front() += 1.0F;  // one that the source does not give
+  const std::string whole = archived(track);
+  EXPECT_GT(whole.size(), bytes.size() + sizeof(urban_nav_core::PatchGrid));
+  urban_nav_core::Archive again(whole, "track");
+  swf_vo::archive(again, read);
+  EXPECT_EQ(read.in_right.value, track.in_right.value);
+}
+
 }  // namespace
 }  // namespace swf_vo

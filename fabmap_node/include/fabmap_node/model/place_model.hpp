@@ -42,6 +42,9 @@ PlaceModel readModel(const std::string& path);
 /// Returns the bytes of the built-in model, which are static.
 std::string_view defaultModelBytes();
 PlaceModel defaultModel();
+/// Returns the bytes of the model of this hash, if it is the built-in one or was so in an earlier version: stores refer
+/// to it by its hash only (store/model_rows.hpp), so that a model that was once built in stays in the program.
+std::optional<std::string_view> suppliedModel(const std::string& hash);
 /// Returns a hash of the content of a model, 16 hexadecimal digits.
 std::string modelHash(std::string_view bytes);
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "inspect/stores_command.hpp"
 
-#include <algorithm>
-
-#include "map/store_keys.hpp"
 #include "map/stored_run.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -27,18 +24,13 @@ Command storesCommand(bool is_output_required) {
 
 void requireFinished(const std::string& store) {
   Store opened = urban_nav_store::openForReading(store, urban_nav_store::Access::Snapshot);
-  for (const urban_nav_store::Session& session : opened.sessions().all()) {
-    if (storedFingerprint(opened, session.id).empty()) continue;
-    const std::vector<std::string> stages = opened.states().stages(session.id);
-    const bool is_resumable = std::any_of(
-        stages.begin(), stages.end(), [](const std::string& stage) { return stage == kVoStage || stage == kLoStage; });
-    if (is_resumable || !session.complete)
+  for (const urban_nav_store::Session& session : opened.sessions().all())
+    if (isUnfinished(opened, session))
       throw urban_nav_core::DataError(store,
                                       "session " + session.id + " (" + session.name +
                                           ") is not complete: the run of map that writes it has not finished, or was "
                                           "interrupted",
                                       "the same call of map once more, which continues from there");
-  }
 }
 
 void writeSummary(const Arguments& arguments, const Json& json) {

@@ -149,7 +149,7 @@ RunCheckpoint::PruneResult RunCheckpoint::pruneSessions(bool in_place) {
     if (!ours && (in_place ? known.complete || storedFingerprint(*store_, known.id).empty()
                            : std::find(stay.begin(), stay.end(), known.id) != stay.end()))
       continue;
-    const bool interrupted = !known.complete || store_->states().get(known.id, keys_.front()).has_value();
+    const bool interrupted = !known.complete || isUnfinished(*store_, known);
     found.interrupted = found.interrupted || interrupted;
     if (!ours) {
       if (!in_place && !options_.overwrite)
@@ -238,6 +238,7 @@ void RunCheckpoint::writeSession(std::size_t session) {
   if (plan.resume_point) store_->sessions().clear(id);
   else store_->sessions().remove(id);
   store_->sessions().put(urban_nav_store::Session{id, plan.name, "", "", info.first, false});
+  store_->states().put(id, kRunStage, {});
   for (const auto& [name, digest] : plan.fingerprint) store_->sessions().put(id, Property{"run/" + name, digest});
   store_->sessions().put(id, Property{"input/name", info.name});
   store_->sessions().put(id, Property{"input/kind", info.kind});
@@ -298,6 +299,10 @@ void RunCheckpoint::endRun() {
   for (const urban_nav_store::Session& session : store_->sessions().all())
     if (session.id != last->id) store_->states().remove(session.id, kBagStage);
   store_->shrink();
+  // Last, after what takes time: a run that is killed before its end is not complete.
+  for (const urban_nav_store::Session& session : store_->sessions().all())
+    store_->states().remove(session.id, kRunStage);
+  store_->commit();
   store_->close();
 }
 

@@ -50,7 +50,8 @@ class RunCheckpoint {
   void commit();
   /// Marks the session as complete, with the states from which it can be restored. Commits.
   void finishSession(const std::vector<BagCheckpoint::StageState>& states);
-  /// Ends a run after its files are written: removes all unneeded states and closes the store.
+  /// Ends a run after its files are written: removes all unneeded states, then the marks of an unfinished run, and
+  /// closes the store.
   void endRun();
 
   urban_nav_store::Store& store() { return *store_; }

@@ -18,6 +18,8 @@ constexpr const char* kFusionStage = "odometry_fusion";
 constexpr const char* kOptionProperty = "input/option/";
 /// Key of the state at the end of a bag (bag_checkpoint.hpp).
 constexpr const char* kBagStage = "bag";
+/// Key of the state that marks a session whose run of `map` has not ended: removed last, after all files are written.
+constexpr const char* kRunStage = "run";
 using urban_nav_store::kForcesStage;
 using urban_nav_store::packForces;
 using urban_nav_store::unpackForces;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "map/store_keys.hpp"
+
 namespace urban_nav {
 
 using urban_nav_store::Edge;
@@ -34,6 +36,14 @@ RunFingerprint storedFingerprint(Store& store, const SessionId& id) {
   for (const urban_nav_store::Property& property : store.sessions().properties(id))
     if (property.name.rfind("run/", 0) == 0) fingerprint.emplace_back(property.name.substr(4), property.value);
   return fingerprint;
+}
+
+bool isUnfinished(Store& store, const urban_nav_store::Session& session) {
+  if (storedFingerprint(store, session.id).empty()) return false;
+  const std::vector<std::string> stages = store.states().stages(session.id);
+  return !session.complete || std::any_of(stages.begin(), stages.end(), [](const std::string& stage) {
+    return stage == kVoStage || stage == kLoStage || stage == kRunStage;
+  });
 }
 
 std::vector<EdgeWithEvidence> readClosureEdges(Store& store, const SessionId& id) {

@@ -17,6 +17,9 @@ std::string inputName(const urban_nav_input::InputSession& session);
 /// Returns the fingerprint stored by `map` with a session; empty if another program stored the session.
 RunFingerprint storedFingerprint(urban_nav_store::Store& store, const urban_nav_store::SessionId& id);
 
+/// Returns whether the run of `map` that writes a session has not ended; false if another program stored the session.
+bool isUnfinished(urban_nav_store::Store& store, const urban_nav_store::Session& session);
+
 struct EdgeWithEvidence {
   urban_nav_store::Edge edge;
   std::optional<std::string> evidence;

@@ -6,6 +6,7 @@
 
 #include "join/join_plan.hpp"
 #include "joined_days.hpp"
+#include "map/store_keys.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace urban_nav {
@@ -139,6 +140,17 @@ TEST_F(JoinedDays, WhatCannotBeJoinedIsRefusedAndNothingIsWritten) {
     cut.commit();
   }
   EXPECT_EQ(runWords({"join", store("first"), file("cut.db"), "-o", file("none.db")}), 1);
+  std::filesystem::copy_file(store("second"), file("killed.db"));
+  {
+    urban_nav_store::Store killed(file("killed.db"), urban_nav_store::Access::Write);
+    const urban_nav_store::SessionId id = killed.sessions().all().front().id;
+    EXPECT_FALSE(killed.states().get(id, kRunStage)) << "the run has ended";
+    killed.states().put(id, kRunStage, {});  // as before the last commit of a run
+    killed.commit();
+  }
+  for (const char* command : {"join", "merge"})
+    EXPECT_EQ(runWords({command, store("first"), file("killed.db"), "-o", file("none.db")}), 1) << command;
+  EXPECT_EQ(runWords({"release", file("killed.db"), "-o", file("none.db")}), 1);
   for (const char* left : {"none.db", "none.db.joining", "none.db.joining.files"})
     EXPECT_FALSE(std::filesystem::exists(file(left))) << left;
 }

@@ -47,7 +47,7 @@ namespace {
 constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns; waiting is free offline
 
 constexpr const char* kBagStateName = "reader of bags";
-constexpr std::uint32_t kBagStateVersion = 8;
+constexpr std::uint32_t kBagStateVersion = 9;
 constexpr urban_nav_core::StampNs kReceiptTolerance =
     25'000'000;                         // ns: images of a pair are received one after another
 constexpr std::size_t kMostSweeps = 4;  // waiting for a pair

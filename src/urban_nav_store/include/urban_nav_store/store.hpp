@@ -56,7 +56,7 @@ class Store {
   void commit();
   /// Discards uncommitted writes.
   void rollback();
-  /// Commits, and releases the space of removed rows to the file system.
+  /// Commits, releases the space of removed rows to the file system, and copies the log into the file.
   void shrink();
   /// Discards uncommitted writes and closes the file, like the destructor.
   void close();

@@ -31,7 +31,6 @@ using urban_nav_store::TileColours;
 
 namespace {
 
-constexpr double kViewDistance = 0.7, kViewAngle = 0.26;  // m, rad: between views of one camera
 constexpr StampNs kLongestViewGap = 500'000'000;
 
 struct SessionViews {

@@ -13,6 +13,8 @@
 
 namespace urban_nav {
 
+constexpr double kViewDistance = 0.7, kViewAngle = 0.26;  ///< m, rad: between views of one camera
+
 /// Colours of the points of a map from stored panoramas of its sessions, about 0.7 m or 15 deg apart. They are computed
 /// once and kept in the store, until chunks, poses or panoramas differ. Not thread-safe.
 class MapColours {

@@ -11,19 +11,20 @@
 
 namespace urban_nav {
 
-/// Stores the sensor data of a session from which the map can be rendered without the recording: panoramas, and sweeps
-/// of 3D LiDARs about every 0.25 m or 6 deg of travel, or every ten seconds at rest.
+/// Stores the sensor data of a session from which the map can be rendered without the recording: sweeps of 3D LiDARs
+/// about every 0.25 m or 6 deg of travel, panoramas at half the spacing of the views that colour the map, and both
+/// every ten seconds at rest.
 class SensorPass final : public SessionPass {
  public:
   SensorPass(MapContext& context, const Stage::SessionStart& start);
   void process(PassItem&) override {}
-  void process(const urban_nav_ros::Panorama& panorama) override { panoramas_.process(panorama); }
+  void process(const urban_nav_ros::Panorama& panorama) override;
   void process(const urban_nav_input::SweepInput& input) override;
   std::string checkpoint() override;
 
  private:
-  /// Pose and time of the last stored sweep of a LiDAR.
-  struct StoredSweep {
+  /// Pose and time of the last stored sweep of a LiDAR, or panorama.
+  struct LastStored {
     std::string role;
     urban_nav_core::StampNs stamp = 0;
     std::optional<urban_nav_core::Pose> T_odom_base;
@@ -31,11 +32,14 @@ class SensorPass final : public SessionPass {
   };
   /// State of the pass at the end of a bag.
   struct State {
-    std::vector<StoredSweep> last;
+    std::vector<LastStored> last;
     void archive(urban_nav_core::Archive& archive) { archive(last); }
   };
-  /// Returns the last sweep of a LiDAR, inserted if missing.
-  StoredSweep& lastPassFor(const urban_nav_input::SweepInput& input);
+  /// Returns the last stored data of a role; null without any.
+  LastStored* findLast(const std::string& role);
+  /// Returns whether data of a role are stored: the first, and those after so much motion or a long rest. Counts them
+  /// as stored if so.
+  bool takes(const std::string& role, urban_nav_core::StampNs stamp, double distance, double angle);
 
   urban_nav_store::Store& store_;
   MapSession& session_;

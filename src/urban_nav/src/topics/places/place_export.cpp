@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "fabmap_node/store/model_rows.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -69,7 +70,7 @@ class PlaceExportFolder {
       ++made_.places;
     });
     TableStore<StoredModel>(store_).forEach(stored.session.id, [&](const StoredModel& row) {
-      if (row.stage == "fabmap_node") models_[row.hash] = row.bytes;
+      if (row.stage == "fabmap_node") models_[row.hash] = fabmap_node::modelBytes(row, store_.path());
     });
   }
 

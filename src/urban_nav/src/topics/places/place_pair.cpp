@@ -8,6 +8,7 @@
 
 #include "base/plot.hpp"
 #include "fabmap_node/model/place_model.hpp"
+#include "fabmap_node/store/model_rows.hpp"
 #include "fabmap_node/store/place_rows.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -94,7 +95,7 @@ PlacePair::End describeEnd(const SessionPlaces& places, std::size_t row) {
 fabmap_node::PlaceModel readStoredModel(urban_nav_store::Store& store, const StoredPlace& row) {
   const auto stored = TableStore<StoredModel>(store).get({row.session, row.model, {}, {}});
   if (!stored) throw DataError(store.path(), "does not hold the model of places " + row.model, "");
-  return fabmap_node::parseModel(stored->bytes, store.path());
+  return fabmap_node::parseModel(fabmap_node::modelBytes(*stored, store.path()), store.path());
 }
 
 std::string findReason(const PlacePair& pair) {

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "fabmap_node/store/model_rows.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_keyframe_place.hpp"
 #include "urban_nav_store/tables/stored_model.hpp"
@@ -39,7 +40,7 @@ PlacesPass::PlacesPass(MapContext& context, const Stage::SessionStart& start,
   for (const urban_nav_input::PanoramaCamera& camera : context.sessions[start.session].info.panorama)
     cameras_.push_back(camera.number);
   TableStore<StoredModel> models(store_);
-  if (!models.get({id_, model->hash, {}, {}})) models.put({id_, model->hash, "fabmap_node", model->bytes});
+  if (!models.get({id_, model->hash, {}, {}})) models.put(fabmap_node::toStoredModel(id_, model->hash, model->bytes));
   if (!start.checkpoint) return;
   std::set<urban_nav_core::StampNs> stored;
   const auto keep = [&](const StoredPlace& row) { stored.insert(row.stamp); };
