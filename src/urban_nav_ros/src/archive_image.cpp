@@ -20,7 +20,7 @@ bool isPlane(const sensor_msgs::Image& image) {
 }
 
 /// Returns the message without its pixels.
-sensor_msgs::ImageConstPtr headOf(const sensor_msgs::Image& image) {
+sensor_msgs::ImageConstPtr copyHead(const sensor_msgs::Image& image) {
   auto head = boost::make_shared<sensor_msgs::Image>();
   head->header = image.header;
   head->height = image.height;
@@ -54,7 +54,7 @@ void archiveImage(urban_nav_core::Archive& archive, sensor_msgs::ImageConstPtr& 
   bool is_png = !archive.isReading() && isPlane(*message);
   archive(is_png);
   if (!is_png) return archiveMessage(archive, message);
-  sensor_msgs::ImageConstPtr head = archive.isReading() ? nullptr : headOf(*message);
+  sensor_msgs::ImageConstPtr head = archive.isReading() ? nullptr : copyHead(*message);
   std::vector<std::uint8_t> png = archive.isReading() ? std::vector<std::uint8_t>() : toPng(*message);
   archiveMessage(archive, head);
   archive(png);

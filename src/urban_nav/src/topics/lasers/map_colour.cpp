@@ -64,8 +64,8 @@ void addViews(urban_nav_store::Store& store, const MappedSession& session, const
 }
 
 /// Returns a digest of the images, their poses and cameras, and of the rendered chunks of a map.
-std::string digestOf(urban_nav_store::Store& store, const std::vector<MappedSession>& sessions,
-                     const SessionViews& made, double voxel) {
+std::string digestColours(urban_nav_store::Store& store, const std::vector<MappedSession>& sessions,
+                          const SessionViews& made, double voxel) {
   std::string bytes;
   urban_nav_store::appendNumber(bytes, voxel);
   for (const MappedSession& session : sessions) {
@@ -156,7 +156,7 @@ MapColours::MapColours(urban_nav_store::Store& store, const laser_mapper::LaserM
   views_ = made.views.size();
   if (views_ == 0) return;
   const double voxel = map.parameters().voxel;
-  digest_ = digestOf(store, sessions, made, voxel);
+  digest_ = digestColours(store, sessions, made, voxel);
   if (isStored()) return;
   if (keep_) removeStored();
   colouriser_ = makeColouriser(store, made, voxel, memory_mb);
