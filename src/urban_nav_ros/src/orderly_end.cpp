@@ -47,7 +47,7 @@ void OrderlyEnd::remove(int number) {
   // The nodelet loaders are interrupted as well, and unload the nodelets, possibly before this process is interrupted.
   using Clock = std::chrono::steady_clock;
   const Clock::time_point latest = Clock::now() + kInterruptFollows;
-  while (is_interrupted == 0 && !ends_ && Clock::now() < latest) std::this_thread::sleep_for(kPoll);
+  while (is_interrupted == 0 && !ends_ && ros::ok() && Clock::now() < latest) std::this_thread::sleep_for(kPoll);
   while (is_interrupted != 0 && !finished_ && !ends_) std::this_thread::sleep_for(kPoll);
   const std::lock_guard<std::mutex> lock(mutex_);
   for (auto each = stages_.begin(); each != stages_.end();)
