@@ -30,6 +30,18 @@ double computeMedian(const std::vector<float>& values) {
   return urban_nav_core::quantile(std::vector<double>(values.begin(), values.end()), 0.5);
 }
 
+/// `is_rounded`: the field has been converted to single precision.
+Finding constantFinding(const std::string& field, const std::string& consequence, bool is_rounded) {
+  if (!is_rounded)
+    return {FindingKind::SweepTimes, field + " has the same time for all points of a cloud" + consequence,
+            "let the driver write the time of each point"};
+  return {FindingKind::SweepTimes,
+          field +
+              " was converted to single precision, in which all points of a sweep have the same time; the times "
+              "within a sweep follow from the rotation of the LiDAR, with the stamp of the header in their middle",
+          "let the driver write the field as it was measured, as float64 or relative to the header"};
+}
+
 }  // namespace
 
 std::string SweepExamination::share(std::int64_t count) const {
@@ -121,8 +133,7 @@ void SweepExamination::timesFindings(std::vector<Finding>& findings) const {
           "that holds it");
       break;
     case PointTimesFault::Constant:
-      append(FindingKind::SweepTimes, field + " has the same time for all points of a cloud" + consequence,
-             "let the driver write the time of each point");
+      findings.push_back(constantFinding(field, consequence, convention_.times.areKnown()));
       break;
     case PointTimesFault::Decreasing:
       append(FindingKind::SweepTimes,

@@ -2,7 +2,9 @@
 #include "laser/cloud/field_statistics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <tuple>
 
@@ -14,6 +16,10 @@ constexpr double kOrigin = 1e-3;                              // m: nearer point
 constexpr double kFarthestPoint = 2000.0;                     // m: beyond the range of any LiDAR of a robot
 constexpr double kShortestSweep = 0.01, kLongestSweep = 1.0;  // s
 constexpr double kTolerance = 1e-3;                           // of both limits: values are rounded
+
+constexpr std::array<PointTimes::Unit, 4> kSweepUnits = {{PointTimes::Unit::Seconds, PointTimes::Unit::Milliseconds,
+                                                          PointTimes::Unit::Microseconds,
+                                                          PointTimes::Unit::Nanoseconds}};
 
 std::string toLower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -125,10 +131,23 @@ bool isReflectance(const std::string& name) {
 }
 
 std::optional<PointTimes::Unit> unitOfSpan(double span) {
-  for (const PointTimes::Unit unit : {PointTimes::Unit::Seconds, PointTimes::Unit::Milliseconds,
-                                      PointTimes::Unit::Microseconds, PointTimes::Unit::Nanoseconds}) {
+  for (const PointTimes::Unit unit : kSweepUnits) {
     const double seconds = 1e-9 * nanoseconds(unit) * span;
     if (seconds >= kShortestSweep * (1.0 - kTolerance) && seconds <= kLongestSweep * (1.0 + kTolerance)) return unit;
+  }
+  return std::nullopt;
+}
+
+std::optional<PointTimes::Unit> unitOfRoundedStamps(const FieldStatistics& field, StampNs header) {
+  const auto isSingle = [](double value) { return static_cast<double>(static_cast<float>(value)) == value; };
+  const bool is_float = field.number == CloudField::Number::Float32 || field.number == CloudField::Number::Float64;
+  if (!is_float || !isSingle(field.first) || !isSingle(field.last)) return std::nullopt;
+  const auto value = static_cast<float>(field.middle());
+  const auto step = static_cast<double>(std::nextafter(value, std::numeric_limits<float>::infinity()) - value);
+  for (const PointTimes::Unit unit : kSweepUnits) {
+    const double seconds = 1e-9 * nanoseconds(unit) * step;
+    const double apart = 1e-9 * (nanoseconds(unit) * field.middle() - static_cast<double>(header));
+    if (seconds >= kShortestSweep && std::abs(apart) <= seconds + kClockTolerance) return unit;
   }
   return std::nullopt;
 }

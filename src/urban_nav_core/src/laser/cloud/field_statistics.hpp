@@ -10,6 +10,7 @@
 
 #include "urban_nav_core/laser/cloud/cloud_convention.hpp"
 #include "urban_nav_core/laser/cloud/cloud_view.hpp"
+#include "urban_nav_core/types/stamp.hpp"
 
 namespace urban_nav_core {
 
@@ -57,5 +58,10 @@ bool isReflectance(const std::string& name);
 
 /// Returns the unit in which a span is a valid duration of a sweep, 10 ms to 1 s; at most one fits. nullopt for none.
 std::optional<PointTimes::Unit> unitOfSpan(double span);
+
+/// Returns the unit in which the values of a field are stamps that a driver has converted to single precision: steps of
+/// 128 s for the seconds since 1970, so that all points of a sweep have the same one. `header`: stamp of the cloud.
+/// nullopt if the values are no such stamps, or if their steps are shorter than 10 ms.
+std::optional<PointTimes::Unit> unitOfRoundedStamps(const FieldStatistics& field, StampNs header);
 
 }  // namespace urban_nav_core

@@ -16,6 +16,9 @@ constexpr double kLongestSpan = 1.0;  // s: longest duration of a sweep
 constexpr double kConstant = 1e-6;    // s
 constexpr double kLatest = 4.6e18;    // ns: half of the range of stamps
 constexpr double kBrightest = 255.0;  // intensity
+// The points of a rotating LiDAR in the order of measurement turn once, and steadily.
+constexpr double kTurnTolerance = 0.1;  // turns
+constexpr double kSteadyTurn = 0.95;    // least correlation of the turn with the index of the point
 
 /// Times of the usable points of a cloud.
 struct Timing {
@@ -42,6 +45,31 @@ Timing readTiming(const CloudPoints& points, const PointTimes& times, const Usab
   }
   if (valid.empty()) return {};
   std::tie(timing.first, timing.last) = boundsWithoutOutliers(std::move(valid));
+  return timing;
+}
+
+/// Returns the times of the points from the rotation of the sensor, with the middle of the sweep at the header; empty
+/// if the points are not in the order of one rotation.
+Timing timeByRotation(const UsablePoints& usable, double sweep_s) {
+  std::vector<double> turns;  // since the first point
+  double turn = 0.0, last = 0.0;
+  for (std::size_t i = 0; i < usable.bytes.size(); ++i) {
+    const double azimuth =
+        std::atan2(static_cast<double>(usable.y[i]), static_cast<double>(usable.x[i])) / (2.0 * M_PI);
+    if (i > 0) turn += std::remainder(azimuth - last, 1.0);
+    turns.push_back(turn);
+    last = azimuth;
+  }
+  if (turns.size() < 2 || std::abs(std::abs(turn) - 1.0) > kTurnTolerance) return {};
+  const double sign = turn < 0.0 ? -1.0 : 1.0;
+  if (!(sign * findTrend(turns) > kSteadyTurn)) return {};
+  const auto [least, most] = std::minmax_element(turns.begin(), turns.end());
+  const double middle = 0.5 * (*least + *most);
+  Timing timing;
+  for (const double each : turns) timing.offsets.push_back(sign * sweep_s * (each - middle));
+  const auto [first, end] = std::minmax_element(timing.offsets.begin(), timing.offsets.end());
+  timing.first = *first;
+  timing.last = *end;
   return timing;
 }
 
@@ -105,9 +133,12 @@ ReadSweep SweepReader::read(const CloudView& cloud) const {
   read.points = points.size();
   read.missing = points.missing();
   read.invalid = points.fault().empty() ? points.size() - usable.bytes.size() : points.size();
+  const bool is_rounded = convention_.fault == PointTimesFault::Constant && convention_.times.areKnown();
   Timing timing;
-  if (!options_.are_deskewed && points.field(convention_.times.field))
-    timing = readTiming(points, convention_.times, usable);
+  if (!options_.are_deskewed && points.field(convention_.times.field)) {
+    if (is_rounded) timing = timeByRotation(usable, convention_.sweep_s);
+    if (timing.offsets.empty()) timing = readTiming(points, convention_.times, usable);
+  }
   read.times = checkTiming(timing, options_.times.has_value());
   const bool is_timed = read.times == ReadSweep::Times::Used;
   const auto toStamp = [&](double offset) { return cloud.stamp + static_cast<StampNs>(std::llround(1e9 * offset)); };

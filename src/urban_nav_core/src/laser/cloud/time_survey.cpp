@@ -111,6 +111,32 @@ std::optional<Candidate> findTimes(const std::vector<CloudStatistics>& clouds) {
   return std::nullopt;
 }
 
+/// Returns whether a field holds stamps of single precision in this unit.
+bool isRounded(const std::vector<CloudStatistics>& clouds, const PointTimes& times) {
+  if (times.reference != PointTimes::Reference::Absolute) return false;
+  return std::all_of(clouds.begin(), clouds.end(), [&](const CloudStatistics& cloud) {
+    const FieldStatistics* field = cloud.find(times.field);
+    return field != nullptr && unitOfRoundedStamps(*field, cloud.stamp) == times.unit;
+  });
+}
+
+std::optional<PointTimes> findRoundedTimes(const std::vector<CloudStatistics>& clouds) {
+  for (const FieldStatistics& field : clouds.front().fields) {
+    if (findMeaning(field.name) != FieldMeaning::Time) continue;
+    const std::optional<PointTimes::Unit> unit = unitOfRoundedStamps(field, clouds.front().stamp);
+    if (!unit) continue;
+    const PointTimes times{field.name, *unit, PointTimes::Reference::Absolute};
+    if (isRounded(clouds, times)) return times;
+  }
+  return std::nullopt;
+}
+
+void takeRounded(const PointTimes& times, CloudConvention& convention) {
+  convention.times = times;
+  convention.fault = PointTimesFault::Constant;
+  convention.suspect = times.field;
+}
+
 /// Sets the reason why no field was found.
 void explainAbsence(const std::vector<CloudStatistics>& clouds, CloudConvention& convention) {
   convention.fault = PointTimesFault::Absent;
@@ -166,6 +192,7 @@ void findPointTimes(const std::vector<CloudStatistics>& clouds, const CloudOptio
     if (!options.times->areKnown()) return;
     const Candidate given = readAs(clouds, *options.times);
     if (given.spans.empty()) return;  // the field does not exist
+    if (isRounded(clouds, *options.times)) return takeRounded(*options.times, convention);
     take(given, convention);
     const std::optional<PointTimes::Unit> unit = agreedUnit(collect(clouds, options.times->field));
     if (unit == options.times->unit) return;
@@ -175,7 +202,8 @@ void findPointTimes(const std::vector<CloudStatistics>& clouds, const CloudOptio
   }
   const std::optional<Candidate> found = findTimes(clouds);
   if (!found) {
-    explainAbsence(clouds, convention);
+    if (const std::optional<PointTimes> rounded = findRoundedTimes(clouds)) takeRounded(*rounded, convention);
+    else explainAbsence(clouds, convention);
   } else if (found->trend < kDecreasingTrend) {
     convention.fault = PointTimesFault::Decreasing;
     convention.suspect = found->times.field;

@@ -26,7 +26,7 @@ using Number = CloudField::Number;
 constexpr double kTurn = 1e-9 * kPeriod;  // s
 
 struct Layout {
-  const char* name;
+  std::string name;
   std::vector<SampleField> fields;
   std::size_t point_step;
   double header;         ///< share of the sweep at the stamp of the header
@@ -181,7 +181,96 @@ TEST_P(CloudLayouts, BeamsHaveTheTimeRingAndDirectionOfTheirPoint) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AsDriversWriteThem, CloudLayouts, ::testing::ValuesIn(layouts()),
-                         [](const auto& each) { return std::string(each.param.name); });
+                         [](const auto& each) { return each.param.name; });
+
+/// Layouts of one time field in every type that holds it to 2 ms, for all units and references.
+std::vector<Layout> combinedLayouts() {
+  struct Type {
+    Number number;
+    const char* name;
+    double least, most;
+    double digits;  ///< of the significand, bits
+  };
+  const std::vector<Type> types = {
+      {Number::Float32, "float32", -1e30, 1e30, 24}, {Number::Float64, "float64", -1e30, 1e30, 53},
+      {Number::UInt32, "uint32", 0.0, 4.2e9, 32},    {Number::Int32, "int32", -2.1e9, 2.1e9, 31},
+      {Number::UInt16, "uint16", 0.0, 65535.0, 16},  {Number::Int16, "int16", -32768.0, 32767.0, 15}};
+  std::vector<Layout> all;
+  for (const PointTimes::Unit unit : {PointTimes::Unit::Seconds, PointTimes::Unit::Milliseconds,
+                                      PointTimes::Unit::Microseconds, PointTimes::Unit::Nanoseconds}) {
+    const double ns = nanoseconds(unit);
+    for (const Type& type : types)
+      for (const std::string reference : {"begin", "end", "absolute"}) {
+        const bool is_stamp = reference == "absolute", is_float = type.digits == 24 || type.digits == 53;
+        const double low = is_stamp ? kBegin / ns : reference == "end" ? -kPeriod / ns : 0.0;
+        const double high = is_stamp ? (kBegin + 40.0 * kPeriod) / ns : reference == "end" ? 0.0 : kPeriod / ns;
+        const double step = is_float ? std::max(std::abs(low), high) * std::exp2(-type.digits) : 1.0;  // units
+        if (low < type.least || high > type.most || step * ns > 2e6) continue;
+        all.push_back({std::string(type.name) + "_" + toString(unit) + "_" + reference,
+                       withPlaces({timeField("t", 16, type.number,
+                                             is_stamp             ? asStamp(ns)
+                                             : reference == "end" ? fromEnd(ns)
+                                                                  : fromBegin(ns)),
+                                   ringField("ring", 24, Number::UInt16)}),
+                       26, reference == "end" ? 1.0 : 0.0,
+                       std::string("t,") + toString(unit) + (is_stamp ? ",absolute" : ",header"), false, kBegin,
+                       1e-9 * (step * ns)});
+      }
+  }
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(InEveryTypeUnitAndReference, CloudLayouts, ::testing::ValuesIn(combinedLayouts()),
+                         [](const auto& each) { return each.param.name; });
+
+/// Field with stamps that were converted to single precision.
+Layout roundedStamps(Number number, double ns, const char* expected) {
+  const SampleField::Value exact = asStamp(ns);
+  return {"rounded",
+          withPlaces({timeField("timestamp", 16, number,
+                                [exact](const SamplePoint& p, double header, double begin) {
+                                  return static_cast<double>(static_cast<float>(exact(p, header, begin)));
+                                }),
+                      ringField("ring", 24, Number::UInt16)}),
+          26, 0.5, expected};
+}
+
+TEST(CloudLayoutsTest, TimesLostToSinglePrecisionFollowFromTheRotation) {
+  for (const Layout& layout : {roundedStamps(Number::Float64, 1e9, "timestamp,s,absolute"),
+                               roundedStamps(Number::Float32, 1e9, "timestamp,s,absolute"),
+                               roundedStamps(Number::Float64, 1.0, "timestamp,ns,absolute")}) {
+    const CloudConvention found = survey(layout);
+    EXPECT_EQ(printPointTimes(found.times), layout.expected);
+    EXPECT_EQ(found.fault, PointTimesFault::Constant);
+    SampleCloud cloud = makeCloud(layout, 20);
+    const ReadSweep read = SweepReader(found, {}).read(cloud.view());
+    EXPECT_EQ(read.sweep.times, Sweep::Times::Measured);
+    EXPECT_EQ(read.sweep.reference, cloud.view().stamp);
+    EXPECT_EQ(read.sweep.beams.size(), sampleTurn().size());
+    const StampNs begin = layout.begin + 20 * kPeriod;
+    for (const Beam& beam : read.sweep.beams)
+      ASSERT_NEAR(static_cast<double>(beam.stamp - begin) / kPeriod,
+                  shareOfTurn(beam.direction.x(), beam.direction.y(), true), 0.005);
+  }
+}
+
+TEST(CloudLayoutsTest, SinglePrecisionWithoutARotationGivesNoTimes) {
+  const Layout layout = roundedStamps(Number::Float64, 1e9, "timestamp,s,absolute");
+  std::vector<SamplePoint> points = sampleTurn();  // ring by ring
+  std::stable_sort(points.begin(), points.end(),
+                   [](const SamplePoint& a, const SamplePoint& b) { return a.ring < b.ring; });
+  SampleCloud cloud(points, layout.fields, layout.point_step, layout.begin, 0);
+  const ReadSweep read = SweepReader(survey(layout), {}).read(cloud.view());
+  EXPECT_EQ(read.times, ReadSweep::Times::Constant);
+  EXPECT_EQ(read.sweep.times, Sweep::Times::Unknown);
+}
+
+TEST(CloudLayoutsTest, AConstantTimeThatIsNotRoundedIsNamed) {
+  const CloudConvention found = survey(
+      {"constant", withPlaces({timeField("timestamp", 16, Number::Float64, constant(1.5e9 + 0.3))}), 24, 0.5, "none"});
+  EXPECT_FALSE(found.times.areKnown());
+  EXPECT_EQ(found.fault, PointTimesFault::Constant);
+}
 
 TEST(CloudLayoutsTest, WithoutTimesSweepsHaveTheTimeOfTheHeader) {
   const Layout layout{"none", withPlaces({intensity(12)}), 16, 0.5, "none"};

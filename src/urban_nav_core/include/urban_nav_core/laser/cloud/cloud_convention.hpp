@@ -24,7 +24,7 @@ struct CloudOptions {
 enum class PointTimesFault : std::uint8_t {
   None,
   Absent,      ///< no field has the span of a sweep
-  Constant,    ///< all points of a cloud have the same time
+  Constant,    ///< all points of a cloud have the same time; if `times` are known, by conversion to single precision
   Decreasing,  ///< the first point of a cloud has the last time
   Unit,        ///< the unit set by the user does not give the duration of a sweep, or is unusual for this field
   Clock        ///< clock other than that of the header: sweeps are placed by the header
