@@ -6,7 +6,7 @@
     scripts/api_pages.py --since COMMIT   nothing if no public header, docs/Doxyfile or docs/api.dox differs from that commit
 
 Defects are the warnings of doxygen (unknown commands and tags, references to nothing, names of parameters that do not exist) and types
-of a namespace without a comment. Members and functions may stand below the comment of a group. Exit status 1 if there is a defect.
+of a namespace without a comment. A comment on a group of members or functions covers all of them. Exit status 1 if there is a defect.
 """
 import argparse
 import re
