@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds and tests all there is, on a bare Debian 12 too; the last line is the result, and so is the exit status.
-#   ./run_tests.sh                  warnings are errors; lint, gtest, Python, rostest; readers and window once more under sanitizers
+#   ./run_tests.sh                  warnings are errors; lint, API pages, gtest, Python, rostest; readers and window once more under sanitizers
 #   ./run_tests.sh --since COMMIT   the packages that differ from that commit, their dependents and the command alone
 #   ./run_tests.sh --benches        the programs in bench/ are compiled as well
 #   ./run_tests.sh --sanitize       all ROS-free cores under the sanitizers, every reader fuzzed for 20 s
@@ -211,6 +211,7 @@ if [ -n "$since" ]; then select_packages; fi
 if [ $sanitize = no ]; then
   seconds=${URBAN_NAV_FUZZ_SECONDS:-2}
   step "lint" run_lint || true
+  step "API pages" scripts/api_pages.py ${since:+--since "$since"} || true
   if anything_selected && step "build" build_all; then
     step "commands of the documents" scripts/document_commands.py --program "$program" || true
     step "hardening of programs and libraries" scripts/check_binaries.py "$ws/devel" || true

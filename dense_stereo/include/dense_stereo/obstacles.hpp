@@ -12,7 +12,7 @@ struct ObstaclePoint {
   Eigen::Vector3f p_cam = Eigen::Vector3f::Zero();  ///< m, left optical frame
   float height = 0.0F;                              ///< m above the ground; negative in holes
 };
-
+/// Thresholds of the obstacle search.
 struct ObstacleOptions {
   double least_height = 0.1;  ///< m: least height or depth of obstacles and holes
   double clearance = 2.0;     ///< m: higher points are above the robot

@@ -20,7 +20,7 @@ enum class EdgeRole {
 /// pose, in their order, are Trusted.
 template <int D>
 std::vector<EdgeRole> rolesByNumbers(const Problem<D>& problem);
-
+/// Reason of the verdict on an edge.
 enum class Reason {
   Role,         ///< Trusted or Asserted
   Fits,         ///< consistent with all accepted edges
@@ -61,7 +61,7 @@ struct SelectionReport {
   /// than the stated variances by a factor of 1000. False if the set has a rival.
   bool rescaled = false;
 };
-
+/// Poses, edge assessments and variance factors of a robust relaxation.
 template <int D>
 struct RobustSolution {
   Solution<D> solution;

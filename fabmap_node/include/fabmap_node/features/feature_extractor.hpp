@@ -7,7 +7,7 @@
 #include "urban_nav_core/image/view.hpp"
 
 namespace fabmap_node {
-
+/// Limits on the number of features per image.
 struct FeatureOptions {
   int single = 500;    ///< largest number of features of a single image
   int panorama = 250;  ///< largest number of features of one image of a panorama

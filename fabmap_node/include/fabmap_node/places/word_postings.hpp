@@ -9,7 +9,7 @@
 #include "fabmap_node/model/word_set.hpp"
 
 namespace fabmap_node {
-
+/// A word of an observation with its weight.
 struct WeightedWord {
   Word word = 0;
   double weight = 0.0;

@@ -13,7 +13,7 @@
 #include "urban_nav_core/types/stamp.hpp"
 
 namespace fabmap_node {
-
+/// Options of the search for the earlier place that an observation shows.
 struct MatcherOptions {
   int first_looks = 30;             ///< likeliest candidates of which a quarter of the descriptors is compared
   int second_looks = 10;            ///< candidates of which all descriptors are compared; 0: none

@@ -10,7 +10,7 @@
 #include "fabmap_node/recognition/place_matcher.hpp"
 
 namespace fabmap_node {
-
+/// Options of PlaceRecogniser.
 struct RecogniserOptions {
   MatcherOptions matcher;
   bool sequence =
@@ -18,7 +18,7 @@ struct RecogniserOptions {
   bool detects_stationary = true;  ///< an observation of a stationary camera replaces the previous one in the sequence
   urban_nav_core::StampNs mask = 20'000'000'000;  ///< more recent places of the same session are not candidates, ns
 };
-
+/// Result of place recognition for one observation.
 struct PlaceRecognition {
   ObservationStatus status = ObservationStatus::Used;
   std::size_t words = 0;            ///< distinct words of the observation

@@ -23,7 +23,7 @@ enum class ReplayModel {
 const std::vector<std::string>& replayModelNames();
 /// Returns the model of a name. Throws UserError with the valid names.
 ReplayModel replayModelFromName(const std::string& name);
-
+/// Likelihood of one query at one place.
 struct ReplayRow {
   static constexpr std::int64_t kNewPlace = -1;
   std::size_t query = 0;

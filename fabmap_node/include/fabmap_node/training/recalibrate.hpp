@@ -12,7 +12,7 @@
 #include "urban_nav_core/types/stamp.hpp"
 
 namespace fabmap_node {
-
+/// An observation with the pose at which it was made.
 struct LocatedImage {
   urban_nav_core::StampNs stamp = 0;
   PlaceObservation observation;
@@ -29,7 +29,7 @@ struct CalibrationPrior {
   std::string calibration;  ///< "panoramas in sequence", ...
   PriorChoice choice;
 };
-
+/// Sizes and priors of a recalibration.
 struct RecalibrationReport {
   std::size_t right = 0, wrong = 0;  ///< numbers of samples of each kind
   std::vector<CalibrationPrior> priors;

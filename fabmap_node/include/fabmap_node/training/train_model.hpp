@@ -11,25 +11,25 @@
 #include "urban_nav_core/types/stamp.hpp"
 
 namespace fabmap_node {
-
+/// An observation of a training drive.
 struct TrainingImage {
   urban_nav_core::StampNs stamp = 0;
   PlaceObservation observation;
 };
 /// Observations of one drive in order of time. Drives should be at different places.
 using TrainingDrive = std::vector<TrainingImage>;
-
+/// Options of the training of a place model.
 struct TrainingOptions {
   KMeansOptions k_means;
   MatcherOptions matcher;
   std::size_t sampled_places = 400;  ///< limit of the number of observations stored for the likelihood of new places
 };
-
+/// Sizes of a training run.
 struct TrainingReport {
   std::size_t observations = 0, stationary = 0, descriptors = 0;
   std::size_t right = 0, wrong = 0;  ///< numbers of calibration samples of each kind
 };
-
+/// A trained place model with the report of its training.
 struct TrainedModel {
   PlaceModel model;
   TrainingReport report;

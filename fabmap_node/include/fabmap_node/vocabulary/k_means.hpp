@@ -8,7 +8,7 @@
 #include "fabmap_node/vocabulary/vocabulary.hpp"
 
 namespace fabmap_node {
-
+/// Options of the clustering of descriptors.
 struct KMeansOptions {
   std::size_t words = 4000;   ///< 2 ... 1 000 000
   int iterations = 12;        ///< limit

@@ -15,7 +15,7 @@
 #include "scene_labeler/model/tree_ensemble.hpp"
 
 namespace scene_labeler {
-
+/// Kind of classifier of a label model.
 enum class ClassifierKind : std::uint8_t { Svm, Forest, Boosted };
 const char* toString(ClassifierKind kind);
 

@@ -7,7 +7,7 @@
 #include "scene_labeler/training/training_data.hpp"
 
 namespace scene_labeler {
-
+/// Options of the training of a label model.
 struct TrainingOptions {
   ClassifierKind kind = ClassifierKind::Boosted;
   FeatureSet features = FeatureSet::All;
@@ -27,7 +27,7 @@ struct ValidatedSetting {
   std::vector<std::pair<std::string, double>> values;
   double f1_mean = 0.0;  ///< over the classes of the held-out folds
 };
-
+/// A trained label model with its cross-validation.
 struct TrainedModel {
   LabelModel model;
   std::vector<std::pair<SceneClass, std::size_t>> samples;  ///< number per class

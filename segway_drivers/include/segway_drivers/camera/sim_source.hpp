@@ -39,7 +39,7 @@ struct SimClock {
 };
 /// The steady clock of this machine.
 SimClock realSimClock();
-
+/// Options of a simulated IEEE 1394 camera.
 struct SimCameraOptions {
   enum class Model { Bumblebee2, Ladybug2 } model = Model::Bumblebee2;
   std::uint32_t pattern = 0x59595959;  ///< register 0x1040, "YYYY"

@@ -47,7 +47,7 @@ struct DriveWish {
 };
 /// Reads `t_s,linear_mps,angular_radps`. Throws UserError with file and line.
 std::vector<DriveWish> readDriveFile(const std::string& path);
-
+/// A device to run without ROS, and the file of its measurements.
 struct RunJob {
   std::string kind;  ///< lms291, xsens_mti, segway_rmp, gps
   std::string port;
@@ -55,7 +55,7 @@ struct RunJob {
   std::string output;   ///< CSV as written by decode
   std::string drive;    ///< file of velocity commands for segway_rmp, or empty
 };
-
+/// Counters and clock of a device at the end of a run.
 struct RunResult {
   DeviceCounters counters;
   std::string state, identity;

@@ -8,7 +8,7 @@
 #include "segway_drivers/stream/counters.hpp"
 
 namespace segway_drivers {
-
+/// A recorded byte stream of a device and the files of its decoded measurements.
 struct DecodeJob {
   std::string kind;      ///< one of deviceKinds()
   std::string input;     ///< bytes as sent by the device

@@ -85,7 +85,7 @@ class StageNode {
       const std::string& name,
       const std::function<void(const typename Service::Request&, typename Service::Response&)>& action);
 
-  /// Publishes <stage>/status, latched, if health or reason has changed.
+  /// Publishes `<stage>/status`, latched, if health or reason has changed.
   void publishStatus(const urban_nav_core::Status& status, const std::string& reason_name,
                      urban_nav_core::StampNs stamp);
   /// Publishes the next status even if it has not changed.

@@ -19,7 +19,7 @@ namespace urban_nav_ros {
 
 /// Nodelet of a live stage. Callbacks convert and enqueue; one worker passes the inputs to the stage, which publishes.
 /// Provides fatal errors for invalid parameters, the services ~reset, ~pause, ~resume and, for stages with finish(),
-/// ~finish; <stage>/status, and /diagnostics once a second.
+/// ~finish; `<stage>/status`, and /diagnostics once a second.
 ///
 /// A stage is a class with its topics and converters, and an algorithm that is independent of ROS:
 ///

@@ -11,7 +11,7 @@
 #include "urban_nav_core/camera/stereo_camera.hpp"
 
 namespace urban_nav_ros {
-
+/// Camera of the stereo pair.
 enum class Side { Left, Right };
 
 /// Returns whether the images of a topic are rectified, by a nodelet's parameter `images`: raw, rectified, or auto, by

@@ -12,7 +12,7 @@
 #include "urban_nav_core/types/stamp.hpp"
 
 namespace urban_nav_sim {
-
+/// Camera of the stereo pair, or side laser.
 enum class Side : std::uint8_t { Left, Right };
 
 /// A stereo pair, grey, 8 bit. A missing image is empty.
@@ -27,7 +27,7 @@ struct LadybugMeasurement {
   int camera = 0;  ///< 0 forward, then clockwise seen from above
   cv::Mat image;
 };
-
+/// A scan of a side laser.
 struct LaserMeasurement {
   Side side = Side::Left;
   urban_nav_core::PlanarScan scan;
@@ -38,20 +38,20 @@ struct LidarMeasurement {
   urban_nav_core::StampNs stamp = 0;  ///< end of the sweep
   urban_nav_core::Sweep sweep;
 };
-
+/// A measurement of the IMU.
 struct ImuMeasurement {
   urban_nav_core::StampNs stamp = 0;
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();            ///< rad/s, axes of imu_link
   Eigen::Vector3d specific_force = Eigen::Vector3d::Zero();  ///< m/s^2, +9.81 along z at rest
   Eigen::Vector3d field = Eigen::Vector3d::Zero();           ///< T
 };
-
+/// A measurement of the wheel odometry.
 struct WheelMeasurement {
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::Pose T_odom_base;
   double speed = 0.0, yaw_rate = 0.0;  ///< m/s, rad/s
 };
-
+/// A measurement of the GPS receiver.
 struct GpsMeasurement {
   urban_nav_core::StampNs stamp = 0;
   bool has_fix = true;
@@ -59,7 +59,7 @@ struct GpsMeasurement {
   Eigen::Vector3d sigma = Eigen::Vector3d::Ones();         ///< as stated by the receiver: east, north, up, m
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< east, north, up, m/s
 };
-
+/// The true pose at a stamp.
 struct TruthMeasurement {
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::Pose T_world_base;

@@ -39,13 +39,13 @@ struct RelaxedPose {
   /// Covariance of the pose relative to the first pose of its map, in the axes of that pose; zero: unknown.
   urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Zero();
 };
-
+/// Identifies a node of the pose graph by session and stamp.
 struct NodeRef {
   SessionId session;
   urban_nav_core::StampNs stamp = 0;
 };
 bool operator==(const NodeRef& a, const NodeRef& b);
-
+/// Source of the measurement of an edge.
 enum class EdgeKind { Odometry, Stereo, Icp, Plane, Session, Asserted };
 /// Returns "odometry", "stereo", "icp", "plane", "session" or "asserted".
 const char* toString(EdgeKind kind);

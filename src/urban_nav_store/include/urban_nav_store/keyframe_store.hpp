@@ -17,7 +17,7 @@ struct StoredKeyframe {
   std::string features;  ///< in the encoding of the stage
 };
 bool operator==(const StoredKeyframe& a, const StoredKeyframe& b);
-
+/// Interface to the keyframes of a session store.
 class KeyframeStore {
  public:
   virtual ~KeyframeStore() = default;

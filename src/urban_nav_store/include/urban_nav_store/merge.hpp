@@ -12,7 +12,7 @@
 #include "urban_nav_store/store.hpp"
 
 namespace urban_nav_store {
-
+/// Numbers of rows of a merge of stores.
 struct MergeResult {
   std::int64_t rows = 0;       ///< in the merged store
   std::int64_t identical = 0;  ///< identical to a row of another source

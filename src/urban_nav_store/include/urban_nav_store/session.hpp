@@ -26,7 +26,7 @@ struct SessionOrigin {
 /// the same id of a live session from its name and start, and a recording mapped twice has one id. Probability that any
 /// two of a million sessions collide: 10^-12.
 SessionId makeSessionId(const SessionOrigin& origin);
-
+/// A session: one uninterrupted drive of one robot.
 struct Session {
   SessionId id;
   std::string name;  ///< for display

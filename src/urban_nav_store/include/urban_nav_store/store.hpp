@@ -12,7 +12,7 @@
 #include "urban_nav_store/stage_states.hpp"
 
 namespace urban_nav_store {
-
+/// Access mode of a store.
 enum class Access {
   Read,      ///< never changes the file; commits of another program are visible to the next call
   Snapshot,  ///< as Read, but all calls see the file as of its opening: for results from many calls

@@ -8,7 +8,7 @@
 #include "urban_nav_store/columns.hpp"
 
 namespace urban_nav_store {
-
+/// Type of the values of a column.
 enum class ColumnType { Text, Integer, Real, Blob };
 
 /// Value of a column of any type.
@@ -19,7 +19,7 @@ struct Value {
   std::string bytes;  ///< text or blob
 };
 bool operator==(const Value& a, const Value& b);
-
+/// A column of a table of the store.
 struct Column {
   std::string name;
   ColumnType type = ColumnType::Integer;

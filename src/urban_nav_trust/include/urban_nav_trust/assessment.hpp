@@ -35,7 +35,7 @@ struct FrameEvidence {
   bool is_lost = false;                                  ///< status of odometry
   bool is_joined = true;                                 ///< part of the first map
 };
-
+/// State and tests of one frame.
 struct FrameTrust {
   urban_nav_core::StampNs stamp = 0;
   TrustState state = TrustState::Unsure;

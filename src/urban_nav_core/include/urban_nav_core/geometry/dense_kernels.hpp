@@ -11,7 +11,7 @@ namespace urban_nav_core::kernels {
 ///
 /// A strip of 8 rows and `depth` columns is stored as `depth` groups of 8 numbers; strips follow one another.
 constexpr int kStrip = 8;
-
+/// The kernels compiled for one instruction set.
 struct InstructionSet {
   const char* name;
 

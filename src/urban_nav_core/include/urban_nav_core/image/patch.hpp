@@ -76,7 +76,7 @@ bool warpTemplate(const PatchSource& source, const PatchWarp& warp, PatchTemplat
 /// Returns the apparent position of `other`, a template of the same size, in `patch`, px: the shift to first order that
 /// the difference of their pixels causes.
 Eigen::Vector2d displacement(const PatchTemplate& patch, const PatchTemplate& other);
-
+/// Result of the alignment of a template with an image.
 struct Alignment {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();    ///< of the template's centre in the image, px
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< px^2, from the noise of this image only (that of the

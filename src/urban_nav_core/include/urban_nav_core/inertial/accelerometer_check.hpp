@@ -16,7 +16,7 @@ struct AccelerometerConvention {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< as returned by parseAxisMap()
   double scale = 1.0;                                  ///< m/s2 per unit of the messages
 };
-
+/// Defect of the accelerations of a recording.
 enum class AccelerometerFault {
   None,
   NotFinite,  ///< no finite measurement

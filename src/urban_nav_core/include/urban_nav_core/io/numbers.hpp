@@ -23,11 +23,11 @@ std::optional<double> parseNumber(std::string_view text);
 /// Parses an integer that fills the whole text; empty on overflow.
 std::optional<std::int64_t> parseInteger(std::string_view text);
 
-/// Splits a line at blanks and tabs (a trailing \r counts as blank); returns views of `line`.
+/// Splits a line at blanks and tabs (a trailing `\r` counts as blank); returns views of `line`.
 std::vector<std::string_view> splitBlanks(std::string_view line);
 /// Splits at separators and trims each part; empty parts are kept, so n separators give n + 1 parts.
 std::vector<std::string_view> splitAt(std::string_view line, char separator);
-/// Returns the text without blanks, tabs and \r at its ends.
+/// Returns the text without blanks, tabs and `\r` at its ends.
 std::string_view trimmed(std::string_view text);
 
 }  // namespace urban_nav_core

@@ -18,8 +18,8 @@ std::string readTextFile(const std::string& path);
 /// bytes, such as Latin-1, are returned unchanged.
 std::string decodeText(std::string bytes);
 
-/// Calls `line(text, number)` for every line, counted from 1, without its line end: \n, \r\n, or \r in a text without
-/// \n. A last line without a line end is included.
+/// Calls `line(text, number)` for every line, counted from 1, without its line end: `\n`, `\r\n`, or `\r` in a text
+/// without `\n`. A last line without a line end is included.
 void forEachLine(std::string_view text, const std::function<void(std::string_view line, int number)>& line);
 
 }  // namespace urban_nav_core

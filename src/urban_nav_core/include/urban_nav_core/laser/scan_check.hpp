@@ -14,7 +14,7 @@ struct LaserConvention {
   StampNs delay = 0;         ///< ns by which stamps are later than the measurement of the first beam
   double time_scale = 1.0;   ///< s per unit of time_increment
 };
-
+/// Wrong unit of a laser scan.
 enum class ScanFault {
   None,
   AngleUnit,  ///< more than a revolution: angles in degrees

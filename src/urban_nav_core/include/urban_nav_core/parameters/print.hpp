@@ -8,7 +8,7 @@
 
 namespace urban_nav_core {
 
-/// Returns config/<pkg>.yaml: the rows at their defaults, each below a comment with its meaning, range and source.
+/// Returns `config/<pkg>.yaml`: the rows at their defaults, each below a comment with its meaning, range and source.
 /// readParameters() reads it back unchanged.
 std::string printYaml(const std::string& stage, const std::vector<RowInfo>& rows);
 /// Returns YAML with the current values and their origins.

@@ -30,7 +30,7 @@ enum class Audience {
 };
 
 /// Row of a stage's parameter table, the only description of a parameter. YAML, the parameter server, --set, range
-/// checks, --help, the README's table and config/<pkg>.yaml are derived from it.
+/// checks, --help, the README's table and `config/<pkg>.yaml` are derived from it.
 template <typename Parameters>
 struct Row {
   std::string name;  ///< "window"; prefixed by its stage it is "swf_vo.window"
@@ -44,7 +44,7 @@ struct Row {
   std::vector<std::string> old_names = {};   ///< accepted as well, see old_names.hpp: "queue", or "loop_metric.queue"
   Audience audience = Audience::Users;
 };
-
+/// Type of the value of a parameter.
 enum class ParameterType { Bool, Integer, Number, Word };
 
 /// Row without the type of its struct, for printing, checking and loading.

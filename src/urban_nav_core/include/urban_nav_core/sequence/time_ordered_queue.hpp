@@ -19,7 +19,7 @@ struct TimeOrderedQueueCounts {
   std::int64_t late = 0;       ///< stamp before that of an input already delivered, or on another clock (kMostAhead)
   std::int64_t duplicate = 0;  ///< same stream and stamp as an earlier input
 };
-
+/// Order in which inputs of several streams arrive.
 enum class DeliveryOrder {
   Shuffled,        ///< stamps may be out of order within a stream
   OrderedStreams,  ///< each stream is in order; streams have different delays

@@ -18,7 +18,7 @@ enum class FalseClosures {
 /// right by chance have `wrong` false. Throws std::invalid_argument for a graph without closures or with too few poses.
 void addFalseClosures(SimulatedGraph& graph, FalseClosures kind, std::size_t count, std::uint64_t seed,
                       std::size_t group = 10);
-
+/// Number, size and distance of places with the same appearance.
 struct AliasOptions {
   std::size_t pairs = 3;      ///< of places with the same appearance
   std::size_t closures = 20;  ///< between the two places of a pair

@@ -25,7 +25,7 @@ class Mutator {
   std::vector<std::string> seeds_;
   std::mt19937_64 random_;
 };
-
+/// Outcomes of a fuzzed reader.
 struct FuzzResult {
   int accepted = 0;     ///< texts that the reader accepted
   int refused = 0;      ///< texts that it rejected with a UserError

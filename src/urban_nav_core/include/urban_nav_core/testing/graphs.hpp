@@ -8,7 +8,7 @@
 #include "urban_nav_core/geometry/se3.hpp"
 
 namespace urban_nav_core::testing {
-
+/// Kind of an edge of a simulated graph.
 enum class GraphEdgeKind {
   Chain,    ///< odometry, from a pose to the next
   Closure,  ///< revisit of a place

@@ -18,6 +18,7 @@ struct Block {
   double bottom, top;    // m
   double heading;        // rad
 };
+/// Blocks on level ground.
 struct World {
   std::vector<Block> blocks;
   bool ground = true;
@@ -29,7 +30,7 @@ World courtyard(std::uint64_t seed);
 World facade();
 /// Ground without blocks.
 World plain();
-
+/// Beams, field of view and noise of a simulated 3D LiDAR.
 struct Scanner {
   int rings = 32, beams = 900;            // per ring, all around
   double lowest = -25.0, highest = 12.0;  // deg

@@ -31,19 +31,19 @@ struct TrackOptions {
   double outliers = 0.0;       ///< share of measurements with errors of up to 20 px
   double nearest = 2.0, farthest = 40.0;  ///< depth of new points, m, uniform in the logarithm
 };
-
+/// A landmark measured in a stereo frame.
 struct TrackSighting {
   std::int64_t landmark = 0;
   Eigen::Vector3d z = Eigen::Vector3d::Zero();  ///< u_left, v, u_right, px
   bool outlier = false;
 };
-
+/// A stereo frame of simulated tracks.
 struct TrackFrame {
   Pose T_world_camera;                   ///< truth; the first is the identity
   std::vector<TrackSighting> sightings;  ///< in order of landmark
   std::vector<std::int64_t> ended;       ///< landmarks without measurements after this frame
 };
-
+/// Simulated tracks of a stereo camera with their truth.
 struct Tracks {
   StereoCamera camera;
   double sigma_px = 0.0;

@@ -56,6 +56,7 @@ struct SegmentError {
   double deg_per_m = 0.0;  ///< mean
   std::size_t count = 0;   ///< segments; 0: the path is too short, the means are 0
 };
+/// Errors of a trajectory over segments of several lengths.
 struct SegmentErrors {
   std::vector<SegmentError> by_length;
   SegmentError all;  ///< mean over all segments of all lengths; length 0

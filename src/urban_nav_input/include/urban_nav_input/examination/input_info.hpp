@@ -20,7 +20,7 @@ struct StreamInfo {
   std::string undecoded;       ///< reason why messages of a recording cannot be decoded; empty: they can
   std::int64_t backward = 0;   ///< stamps of a folder that are not later than the previous one
 };
-
+/// Streams and extent of a recording.
 struct InputInfo {
   std::string name, kind;
   std::vector<StreamInfo> streams;

@@ -22,7 +22,7 @@ struct EurocPair {
   std::string left, right;
   urban_nav_core::StampNs right_stamp = 0;  ///< of the right image, as recorded; 0 without one
 };
-
+/// A row of imu0/data.csv of a EuRoC folder.
 struct EurocImu {
   urban_nav_core::StampNs stamp = 0;
   urban_nav_core::Vector3d rate = urban_nav_core::Vector3d::Zero();          ///< rad/s, in the body frame

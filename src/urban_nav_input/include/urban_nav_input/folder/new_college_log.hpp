@@ -45,7 +45,7 @@ struct NewCollegePanorama {
 
 using NewCollegeEvent = std::variant<NewCollegeScan, NewCollegeOdometry, NewCollegePanorama>;
 urban_nav_core::StampNs toStamp(const NewCollegeEvent& event);
-
+/// Numbers of events of a New College log, and of its gaps.
 struct NewCollegeCounts {
   std::int64_t scans_left = 0, scans_right = 0;
   std::int64_t scans_lost = 0;  ///< gaps in the ids

@@ -47,7 +47,7 @@ Role panoramaInfoRole(std::size_t camera);
 constexpr std::size_t kPointsTopics = 4;
 /// Returns the role of a 3D LiDAR, 0 ... kPointsTopics - 1.
 Role pointsRole(std::size_t lidar);
-
+/// Topic of a bag that is read for a role.
 struct ChosenTopic {
   std::string name;
   std::string type;  ///< "sensor_msgs/Image"

@@ -42,7 +42,7 @@ struct SourceOptions {
   bool with_sweeps = false;
   SessionRule sessions = SessionRule::Auto;  ///< as input.sessions
 };
-
+/// Format of an input.
 enum class InputKind { KittiFolder, EurocFolder, NewCollegeFolder, Bag };
 
 /// Returns the kind of input at `path`. Throws UserError listing the known kinds if it is none of them.

@@ -65,7 +65,7 @@ struct SourceItem : urban_nav_ros::DecodedPair {
   /// without images, and in gaps of the images.
   bool has_pair = true;
 };
-
+/// Mounting of a planar laser.
 struct LaserInfo {
   std::string frame;
   urban_nav_core::Pose T_base_laser;

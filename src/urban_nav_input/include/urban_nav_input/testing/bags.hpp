@@ -8,7 +8,7 @@ namespace urban_nav_input::testing {
 
 /// Copies a bag with stamps and times of receipt `seconds` later.
 void delayBag(const std::string& from, const std::string& to, double seconds);
-
+/// Change made to a copy of a bag.
 enum class Rewrite {
   Shuffle,  ///< messages in another order, each within 40 ms of its place
   WithoutTruth,

@@ -13,7 +13,7 @@
 #include "urban_nav_registration/parameters.hpp"
 
 namespace urban_nav_registration {
-
+/// Reason why an alignment is rejected.
 enum class AlignmentReason {
   None,
   TooFewPoints,   ///< too few finite points in one of the clouds
@@ -69,7 +69,7 @@ struct Alignment {
   bool planar = false;
   std::optional<Alternative> alternative;  ///< result of a global search with several possible poses
 };
-
+/// When the global search runs.
 enum class SearchMode {
   /// From the guess, then by a global search if that is rejected. A result accepted from the guess is compared with
   /// alternatives of a coarse search, unless it is degenerate.

@@ -9,7 +9,7 @@
 #include "urban_nav_core/image/view.hpp"
 
 namespace urban_nav_registration {
-
+/// Width and height of an image.
 struct ImageSize {
   int width = 0, height = 0;  ///< px
 };

@@ -9,7 +9,7 @@
 #include "urban_nav_registration/pictures/picture.hpp"
 
 namespace urban_nav_registration {
-
+/// Size and content of a picture of two aligned clouds.
 struct CloudPictureOptions {
   int panel = 400;  ///< px, width and height of each of the three panels
   std::vector<urban_nav_core::Vector6d>

@@ -9,7 +9,7 @@
 #include "urban_nav_registration/stereo/stereo_closure.hpp"
 
 namespace urban_nav_registration {
-
+/// Layout and colours of a picture of two matched views.
 struct MatchPictureOptions {
   bool stacked = false;          ///< b below a; otherwise to its right
   int widest = 640;              ///< px, of one view: larger ones are reduced

@@ -11,7 +11,7 @@
 #include "urban_nav_sim/device/line_queue.hpp"
 
 namespace urban_nav_sim {
-
+/// Faults, clock and delay of a simulated device.
 struct DeviceOptions {
   std::vector<DeviceFault> faults;
   DeviceClock clock;

@@ -10,9 +10,9 @@
 #include "urban_nav_core/io/cloud/record_file.hpp"
 
 namespace urban_nav_core {
-
+/// Number type of a property of a PLY file.
 enum class PlyType { Float, Double, UChar, UShort, Int };
-
+/// A named property of a PLY element.
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::Float;
