@@ -84,7 +84,8 @@ void runStage(const AllStages& stages, const std::string& name, MapContext& cont
     context.store->commit();
     const Stage::Messages messages = stage->run(context);
     for (const std::string& line : messages.info) context.console.info(line);
-    warnings.insert(warnings.end(), messages.warnings.begin(), messages.warnings.end());
+    for (const std::string& line : messages.warnings)
+      if (std::find(warnings.begin(), warnings.end(), line) == warnings.end()) warnings.push_back(line);
   }
 }
 
@@ -111,12 +112,18 @@ Join::Join(JoinOptions options, AllStages stages, Console& console)
     throw DataError(sources_.front(), "has no session with poses", "stores written by map");
   context_->names = context_->previous.names;
   context_->trajectories = odometryTrajectories(context_->runs(), 0);
+  context_->divides = context_->names.size() > 1;
 }
 
 void Join::findCandidates() { runStage(stages_, "places", *context_, run_.warnings); }
 
 void Join::relax() {
-  for (const char* name : {"loops", "graph", "lasers"}) runStage(stages_, name, *context_, run_.warnings);
+  const auto run = [&](const char* name) { runStage(stages_, name, *context_, run_.warnings); };
+  run("loops");
+  run("graph");
+  while (context_->is_divided)
+    for (const char* name : {"places", "loops", "graph"}) run(name);
+  run("lasers");
 }
 
 JoinRun Join::publish() {

@@ -63,8 +63,15 @@ struct MapContext {
   std::vector<std::size_t> numbers;  ///< over all sessions, of those of this run; empty: they follow the previous ones
   /// Over all sessions: part of a release, whose places are known and whose poses are fixed. Empty: none.
   std::vector<bool> is_frozen;
-  /// Closures that pieces of a join have measured, by their poses: not measured again.
+  /// Closures measured before, by pieces of a join or for larger groups, by their poses: not measured again.
   std::map<std::pair<urban_nav_core::PoseRef, urban_nav_core::PoseRef>, urban_nav_core::MetricClosure> measured;
+  std::vector<urban_nav_core::MetricClosure> given;  ///< closures of a file, before places are recognised
+  /// Whether places are recognised again within each map, until no map divides further (map_division.hpp).
+  bool divides = false;
+  /// Over all sessions: number of the group within which its places are recognised. Empty: one group.
+  std::vector<std::size_t> groups;
+  bool is_divided = false;  ///< by the last run of the pose graph, which is therefore not final
+  std::vector<urban_nav_core::MetricClosure> between_groups;  ///< rejected candidates, with the reason
 
   /// Returns the number of a session of this run over all sessions. Requires session < sessions.size().
   std::size_t number(std::size_t session) const;

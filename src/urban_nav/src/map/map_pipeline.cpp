@@ -2,10 +2,12 @@
 #include "map/map_pipeline.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "base/command_parameters.hpp"
 #include "base/plot.hpp"
 #include "map/lost_closures.hpp"
+#include "map/map_division.hpp"
 #include "map/map_report.hpp"
 #include "map/output_files.hpp"
 #include "map/run_totals.hpp"
@@ -62,6 +64,8 @@ class MapRun {
     readSessions(checkpoint);
     context_.joins = joinsSessions(context_.options, stages_);
     if (context_.joins) orderSessions(context_);
+    context_.divides = canDivide(context_, stages_);
+    context_.given = context_.closures;
     runStages();
     if (context_.joins)
       if (const std::string lost = lostClosuresWarning(*context_.store, accepted_before); !lost.empty())
@@ -112,19 +116,27 @@ class MapRun {
 
   void runStages() {
     for (Stage* stage : stages_) {
-      if (const std::string missing = stage->missingInput(context_); !missing.empty()) {
-        const Stage::Description description = stage->describe();
-        if (description.listed && !context_.options.stages.empty())
-          throw urban_nav_core::DataError("--stages " + description.name, "cannot be run: " + missing, "");
-        context_.console.info("stage " + description.name + " left out: " + missing);
-        continue;
-      }
-      context_.store->commit();
-      const Stage::Messages messages = stage->run(context_);
-      for (const std::string& line : messages.info) context_.console.info(line);
-      for (const std::string& line : messages.warnings) context_.console.warn(line);
+      runStage(*stage);
+      while (context_.is_divided)
+        for (Stage* again : stages_)
+          if (isRepeatedByMap(again->describe().name)) runStage(*again);
     }
     context_.store->commit();
+  }
+
+  void runStage(Stage& stage) {
+    if (const std::string missing = stage.missingInput(context_); !missing.empty()) {
+      const Stage::Description description = stage.describe();
+      if (description.listed && !context_.options.stages.empty())
+        throw urban_nav_core::DataError("--stages " + description.name, "cannot be run: " + missing, "");
+      context_.console.info("stage " + description.name + " left out: " + missing);
+      return;
+    }
+    context_.store->commit();
+    const Stage::Messages messages = stage.run(context_);
+    for (const std::string& line : messages.info) context_.console.info(line);
+    for (const std::string& line : messages.warnings)
+      if (warned_.insert(line).second) context_.console.warn(line);
   }
 
   void updateReport(double share) {
@@ -179,7 +191,8 @@ class MapRun {
   const OutputFolder folder_;
   const ResultRecorder& record_;
   std::vector<std::string> failed_tests_;
-  double reported_s_ = 0.0;  // when the report was written last
+  std::set<std::string> warned_;  // by stages
+  double reported_s_ = 0.0;       // when the report was written last
 };
 
 }  // namespace

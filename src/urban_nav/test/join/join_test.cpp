@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 #include "join/join_plan.hpp"
 #include "joined_days.hpp"
@@ -50,6 +51,32 @@ TEST_F(JoinedDays, SessionsOfOnePlaceBecomeOneMap) {
 TEST_F(JoinedDays, ARunThatContinuesAStoreGivesTheSameInAnyOrder) {
   ASSERT_EQ(map({file("first.bag")}, "backwards", {"--store", store("again")}), 0);
   EXPECT_EQ(differences("backwards", "days"), std::vector<std::string>());
+}
+
+/// Lines of closures.csv that a map has accepted.
+std::vector<std::string> acceptedRows(const std::string& folder) {
+  std::vector<std::string> rows;
+  std::istringstream text(readFile(folder + "/closures.csv"));
+  for (std::string line; std::getline(text, line);)
+    if (line.find(",accepted,") != std::string::npos) rows.push_back(line);
+  return rows;
+}
+
+TEST_F(JoinedDays, AMapDoesNotDependOnSessionsElsewhere) {
+  ASSERT_EQ(runWords({"join", store("second"), store("again"), store("first"), "-o", file("three.db")}), 0);
+  const StoreInfo info = readStoreInfo(file("three.db"));
+  ASSERT_EQ(info.joined.size(), 2U) << "the second part of the drive shows other places";
+  ASSERT_EQ(runWords({"export", file("three.db"), "--results", file("three")}), 0);
+  EXPECT_FALSE(acceptedRows(file("days")).empty());
+  EXPECT_EQ(acceptedRows(file("three")), acceptedRows(file("days")));
+  ASSERT_EQ(map({file("first.bag"), file("second.bag"), file("again.bag")}, "three_mapped"), 0);
+  EXPECT_EQ(differences("three", "three_mapped"), std::vector<std::string>());
+  ASSERT_EQ(runWords({"join", store("first"), store("second"), store("again"), "--plan", file("plan_of_three")}), 0);
+  for (const std::string& piece : readPlan(file("plan_of_three/plan.json")).pieces)
+    ASSERT_EQ(runWords({"join", "--piece", file("plan_of_three/" + piece)}), 0);
+  ASSERT_EQ(runWords({"join", "--finish", file("plan_of_three"), "-o", file("three_pieces.db")}), 0);
+  ASSERT_EQ(runWords({"export", file("three_pieces.db"), "--results", file("three_pieces")}), 0);
+  EXPECT_EQ(differences("three_pieces", "three_mapped"), std::vector<std::string>());
 }
 
 TEST_F(JoinedDays, PiecesGiveTheSame) {

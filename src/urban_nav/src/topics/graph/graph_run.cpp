@@ -330,6 +330,12 @@ std::size_t GraphRun::findMap(std::size_t session) const {
                                   sessions.begin());
 }
 
+std::vector<std::size_t> GraphRun::maps() const {
+  std::vector<std::size_t> maps;
+  for (std::size_t s = 0; s < sessions.size(); ++s) maps.push_back(findMap(s));
+  return maps;
+}
+
 std::size_t GraphRun::sessionsJoined() const {
   std::size_t count = 0;
   for (std::size_t s = 0; s < sessions.size(); ++s) count += joined(s) ? 1 : 0;

@@ -50,6 +50,8 @@ struct GraphRun {
 
   /// Returns the first session of the map of a session; the session itself if it is not joined to an earlier one.
   std::size_t findMap(std::size_t session) const;
+  /// Returns findMap() of each session.
+  std::vector<std::size_t> maps() const;
   /// Returns whether a session is in the map of the first session.
   bool joined(std::size_t session) const { return findMap(session) == 0; }
   std::size_t sessionsJoined() const;

@@ -7,6 +7,7 @@
 #include "laser_mapper/parameters.hpp"
 #include "map/closure_notes.hpp"
 #include "map/map_base.hpp"
+#include "map/map_division.hpp"
 #include "map/session_fixes.hpp"
 #include "pose_graph/ground_views.hpp"
 #include "pose_graph/stored_edits.hpp"
@@ -80,6 +81,12 @@ SessionFixes readFixes(const MapContext& context) {
   return fixes;
 }
 
+/// Returns whether places have to be recognised again, within these groups.
+bool isDivided(const MapContext& context, const std::vector<std::size_t>& groups) {
+  const std::vector<std::size_t> one(groups.size(), 0);
+  return context.divides && groups != (context.groups.empty() ? one : context.groups);
+}
+
 class GraphStage final : public Stage {
  public:
   Description describe() const override { return {"graph", "pose_graph", true, true, true, {"graph#.g2o"}}; }
@@ -105,14 +112,24 @@ class GraphStage final : public Stage {
     const std::vector<const SessionOdometry*> runs = context.runs();
     PreviousClosures previous = previousClosures(context);
     const PlaneFinder find_planes = makePlaneFinder(context);
+    std::vector<urban_nav_core::MetricClosure> closures = context.closures;
+    closures.insert(closures.end(), context.between_groups.begin(), context.between_groups.end());
     if (isRequested(context.options, "lasers")) previous.planes.clear();
     const SessionGrounds grounds = readGrounds(context);
     const SessionFixes fixes = usesGps(context) ? readFixes(context) : SessionFixes();
     const std::vector<pose_graph::Edit> edits = pose_graph::readEdits(*context.store, context.ids(), context.names);
-    run_ = runGraph(parameters, runs, context.names, context.closures, previous, grounds, fixes, find_planes, edits);
-    std::vector<urban_nav_core::MetricClosure> by_stereo = context.closures;
+    run_ = runGraph(parameters, runs, context.names, closures, previous, grounds, fixes, find_planes, edits);
+    const std::vector<std::size_t> groups = dividedGroups(context, run_->maps());
+    context.is_divided = isDivided(context, groups);
+    if (context.is_divided) {
+      divideGroups(groups, run_->closures, run_->assessments, context);
+      return {{"graph: " + std::to_string(sessionsOfGroups(context).size()) +
+               " separate maps: places are recognised again within each"},
+              {}};
+    }
+    std::vector<urban_nav_core::MetricClosure> by_stereo = closures;
     by_stereo.erase(std::remove_if(by_stereo.begin(), by_stereo.end(), isMeasuredByIcp), by_stereo.end());
-    if (by_stereo.size() < context.closures.size()) {
+    if (by_stereo.size() < closures.size()) {
       previous.planes.clear();
       const GraphRun without_icp =
           runGraph(parameters, runs, context.names, by_stereo, previous, grounds, fixes, {}, edits);
@@ -149,6 +166,7 @@ class GraphStage final : public Stage {
     if (!isRequested(context.options, "lasers") || !parameters.constraints) return {};
     const double half_length = context.options.parameters.get(urban_nav_registration::table()).cloud_half_length;
     return [&parameters, &context, half_length](const GraphRun& run) {
+      if (isDivided(context, dividedGroups(context, run.maps()))) return PlaneClosures();  // the run is not final
       return findPlaneClosures(parameters, *context.store, context.ids(), run, half_length);
     };
   }

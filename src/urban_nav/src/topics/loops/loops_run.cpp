@@ -67,6 +67,7 @@ LoopsRun runLoops(const CandidateMeasurer& measurer, const std::vector<MetricClo
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (const auto known = measured.find({candidates[i].a, candidates[i].b}); known != measured.end()) {
       closures[i] = known->second;
+      closures[i].probability = candidates[i].probability;  // within the present group
     } else {
       missing.push_back(candidates[i]);
       places.push_back(i);
@@ -77,6 +78,7 @@ LoopsRun runLoops(const CandidateMeasurer& measurer, const std::vector<MetricClo
       measureCandidates(measurer, missing, [&](std::size_t done) { progress.update(static_cast<std::int64_t>(done)); });
   progress.finish(static_cast<std::int64_t>(missing.size()));
   for (std::size_t i = 0; i < places.size(); ++i) closures[places[i]] = std::move(result.closures[i]);
+  run.measured = closures;
   const SeveralStores stores(measurer.stores);
   const StoredPlaceData place_data(measurer.sessions, stores.keyframes(), stores.scans());
   loop_metric::applyChecks(closures, place_data, measurer.parameters);

@@ -20,6 +20,7 @@ struct LoopsRun {
   double ms_median = 0.0, ms_p99 = 0.0;  ///< per candidate
   double ms = 0.0;                       ///< of all candidates
   std::vector<std::string> warnings;
+  std::vector<urban_nav_core::MetricClosure> measured;  ///< `closures` before they were compared with each other
 };
 
 /// Previously measured closures, by their poses.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "topics/loops/loops.hpp"
 
+#include <algorithm>
+
 #include "base/plot.hpp"
 #include "map/closure_notes.hpp"
 #include "topics/loops/loops_report.hpp"
@@ -36,8 +38,13 @@ class LoopsStage final : public Stage {
     measurer.sessions = storedSessions(sessions, *context.store, measurer.camera);
     measurer.parameters = context.options.parameters.get(loop_metric::table());
     measurer.parameters.registration = context.options.parameters.get(urban_nav_registration::table());
-    run_ = runLoops(measurer, context.closures, context.measured, context.console);
+    LoopsRun run = runLoops(measurer, context.closures, context.measured, context.console);
+    if (run_ && run_->candidates > 0) addTimes(*run_, run);
+    run_ = std::move(run);
     context.closures = run_->closures;
+    if (context.divides)
+      for (const urban_nav_core::MetricClosure& closure : run_->measured)
+        context.measured.insert_or_assign({closure.a, closure.b}, closure);
     if (run_->candidates == 0) return {};
     return {
         {"loops: " + std::to_string(run_->candidates) + " candidates, " + std::to_string(run_->accepted_stereo) +
@@ -57,6 +64,13 @@ class LoopsStage final : public Stage {
   }
 
  private:
+  /// Adds the times of a run over larger groups, which measured most candidates.
+  static void addTimes(const LoopsRun& earlier, LoopsRun& run) {
+    run.ms += earlier.ms;
+    run.ms_median = earlier.ms_median;
+    run.ms_p99 = std::max(run.ms_p99, earlier.ms_p99);
+  }
+
   std::optional<LoopsRun> run_;
 };
 

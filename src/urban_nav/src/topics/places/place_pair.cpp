@@ -30,13 +30,15 @@ constexpr double kFarthestPlace = 1.0;  // s from the requested time
 
 struct SessionPlaces {
   urban_nav_store::Session session;
+  urban_nav_store::SessionId map;  // that its poses are in; empty: not relaxed
   std::vector<StoredPlace> rows;
 };
 
 std::vector<SessionPlaces> readPlaces(urban_nav_store::Store& store) {
   std::vector<SessionPlaces> sessions;
   for (const urban_nav_store::Session& session : store.sessions().all()) {
-    sessions.push_back({session, {}});
+    const auto anchor = store.sessions().anchor(session.id);
+    sessions.push_back({session, anchor ? anchor->map : "", {}});
     TableStore<StoredPlace>(store).forEach(session.id,
                                            [&](const StoredPlace& row) { sessions.back().rows.push_back(row); });
     if (sessions.back().rows.empty()) sessions.pop_back();
@@ -116,7 +118,8 @@ std::string findReason(const PlacePair& pair) {
          "(fabmap_node.closures_per_metre, enough_closures), or the previous observations contradict it";
 }
 
-/// Compares the query with all previous places, as in a run over the sessions.
+/// Compares the query with all previous places of its map, as a run over the sessions last does; with those of all maps
+/// if the two places are in different ones.
 void compareInMap(const std::vector<SessionPlaces>& sessions, const PlaceNumber& earlier, const PlaceNumber& query,
                   const fabmap_node::PlaceModel& model, const fabmap_node::Parameters& parameters, PlacePair& pair) {
   const fabmap_node::LikelihoodTable table(model.tree, model.detector, fabmap_node::Dependence::ChowLiu);
@@ -128,14 +131,18 @@ void compareInMap(const std::vector<SessionPlaces>& sessions, const PlaceNumber&
     const auto description = fabmap_node::toPlaceDescription(row, model.vocabulary.size());
     return fabmap_node::DescribedPlace{s, row.stamp, description.words, description.look};
   };
+  const urban_nav_store::SessionId& map = sessions[query.session].map;
+  const bool in_one_map = !map.empty() && sessions[earlier.session].map == map;
   std::size_t number = 0;
-  for (std::size_t s = 0; s <= query.session; ++s)
+  for (std::size_t s = 0; s <= query.session; ++s) {
+    if (in_one_map && sessions[s].map != map) continue;
     for (std::size_t i = 0; i < sessions[s].rows.size() && PlaceNumber{s, i} < query; ++i) {
       const StoredPlace& row = sessions[s].rows[i];
       if (row.status != toString(ObservationStatus::Used) || row.model != pair.query.row.model) continue;
       if (PlaceNumber{s, i} == earlier) number = matcher.size();
       matcher.add(describe(s, row));
     }
+  }
   const fabmap_node::DescribedPlace place = describe(query.session, pair.query.row);
   pair.comparison = matcher.compare(place, number, [&](std::size_t i) {
     return matcher.place(i).session != place.session || matcher.place(i).stamp <= place.stamp - mask;

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <numeric>
 #include <set>
 #include <utility>
 
 #include "fabmap_node/decision/travelled_distance.hpp"
 #include "fabmap_node/store/place_rows.hpp"
+#include "map/map_division.hpp"
 #include "urban_nav_store/table_store.hpp"
 
 namespace urban_nav {
@@ -35,43 +35,40 @@ bool isKnown(const MapContext& context, std::size_t session) {
   return !context.joins && context.isPrevious(session);
 }
 
-/// Returns the numbers of all sessions: first those whose places are known.
-std::vector<std::size_t> knownFirst(const MapContext& context) {
-  std::vector<std::size_t> order(context.names.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_partition(order.begin(), order.end(), [&](std::size_t session) { return isKnown(context, session); });
-  return order;
+/// Returns the sessions of a group: first those whose places are known.
+std::vector<std::size_t> knownFirst(const MapContext& context, std::vector<std::size_t> group) {
+  std::stable_partition(group.begin(), group.end(), [&](std::size_t session) { return isKnown(context, session); });
+  return group;
 }
 
-/// One run over all sessions.
-class PlaceRecognitionRun {
+/// Recognition among the sessions of one group. Adds to a common result.
+class GroupRecognition {
  public:
-  PlaceRecognitionRun(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model,
-                      const MapContext& context)
+  GroupRecognition(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model, const MapContext& context,
+                   const std::vector<std::size_t>& group, PlacesRun& result)
       : model_(model),
         context_(context),
         ids_(context.ids()),
-        order_(knownFirst(context)),
-        map_(model.model, parameters, [this](std::size_t session, urban_nav_core::StampNs stamp) {
-          StoredPlace key;
-          key.session = ids_[order_[session]];
-          key.stamp = stamp;
-          const auto row = TableStore<StoredPlace>(*context_.store).get(key);
-          return row ? row->descriptors : std::string();
-        }) {}
+        order_(knownFirst(context, group)),
+        map_(model.model, parameters,
+             [this](std::size_t session, urban_nav_core::StampNs stamp) {
+               StoredPlace key;
+               key.session = ids_[order_[session]];
+               key.stamp = stamp;
+               const auto row = TableStore<StoredPlace>(*context_.store).get(key);
+               return row ? row->descriptors : std::string();
+             }),
+        result_(result) {}
 
-  PlacesRun run() {
+  /// Returns the number of places with words of another model.
+  std::size_t run() {
     const std::vector<const SessionOdometry*> runs = context_.runs();
-    result_.beliefs.resize(ids_.size());
     for (const std::size_t s : order_) {
       map_.beginSession(context_.names[s]);
       addSession(s, ids_[s], travelledDistance(*runs[s]), isKnown(context_, s));
     }
-    result_.places = map_.places();
-    if (other_model_ > 0)
-      result_.warnings.push_back(std::to_string(other_model_) +
-                                 " places of previous sessions have words of a different model and are not used");
-    return std::move(result_);
+    result_.places += map_.places();
+    return other_model_;
   }
 
  private:
@@ -106,7 +103,7 @@ class PlaceRecognitionRun {
   const std::vector<urban_nav_store::SessionId> ids_;
   const std::vector<std::size_t> order_;  // of sessions
   FabMap map_;                            // with descriptors from the store
-  PlacesRun result_;
+  PlacesRun& result_;
   std::size_t other_model_ = 0;
 };
 
@@ -114,7 +111,15 @@ class PlaceRecognitionRun {
 
 PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model,
                     const MapContext& context) {
-  return PlaceRecognitionRun(parameters, model, context).run();
+  PlacesRun result;
+  result.beliefs.resize(context.names.size());
+  std::size_t other_model = 0;
+  for (const std::vector<std::size_t>& group : sessionsOfGroups(context))
+    other_model += GroupRecognition(parameters, model, context, group, result).run();
+  if (other_model > 0)
+    result.warnings.push_back(std::to_string(other_model) +
+                              " places of previous sessions have words of a different model and are not used");
+  return result;
 }
 
 void addProposed(const std::vector<urban_nav_core::TopologicalClosure>& proposed,

@@ -27,8 +27,8 @@ struct PlacesRun {
 };
 
 /// Recognises the places of the sessions of this run, or of all sessions if it joins them, in order, from the rows of
-/// the store. Places of other sessions are in the map from the beginning. The result does not depend on the number of
-/// threads.
+/// the store. Places of other sessions are in the map from the beginning. Each group of sessions (MapContext::groups)
+/// has a map of its own. The result does not depend on the number of threads.
 PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model,
                     const MapContext& context);
 
