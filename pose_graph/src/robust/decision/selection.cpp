@@ -37,12 +37,12 @@ void Selection<D>::run() {
   contested_ = isContested(best_.selected) || between_ > 0;
   evaluator_ = std::make_unique<HypothesisEvaluator<D>>(problem_, roles_);
   odometry_ = evaluator_->evaluateOdometry();
-  scored_.emplace_back(odometry_.log_evidence, odometry_.in);
+  scored_.push_back({odometry_.log_evidence, odometry_.in});
   best_.hypothesis = hypothesisOver(best_.selected, {});
   evaluator_->evaluate(best_.hypothesis);
   readmit(best_);
   applyCollapsePenalty(best_.hypothesis);
-  scored_.emplace_back(best_.hypothesis.log_evidence, best_.members);
+  scored_.push_back({best_.hypothesis.log_evidence, best_.members});
   if (between_ > 0 && rejected(best_.selected) == 0 && !isLoosened()) unopposed_ = best_.selected;
   if (!contested_) {
     // A short slip affects few closures; a single one does not contradict a step.
@@ -176,14 +176,15 @@ bool Selection<D>::propose(const VarianceFactors& factors, const std::vector<Sli
   made.hypothesis = hypothesisOver(made.selected, factors);
   readmit(made);
   const bool known =
-      std::any_of(scored_.begin(), scored_.end(), [&](const auto& other) { return other.second == made.members; });
+      std::any_of(scored_.begin(), scored_.end(), [&](const auto& other) { return other.members == made.members; });
   if (known && !forced && !is_doubtful_link) return false;
   evaluator_->evaluate(made.hypothesis);
-  scored_.emplace_back(made.hypothesis.log_evidence, made.members);
   const bool is_new_slip = slips.size() > best_.slips.size();
+  const bool is_confirmed = !is_new_slip || holdsWithout(made.selected, slips);
+  scored_.push_back({made.hypothesis.log_evidence, made.members, is_confirmed});
   const bool likelier = made.hypothesis.log_evidence >
                             best_.hypothesis.log_evidence + (is_new_slip || is_doubtful_link ? kDecisive : 0.0) &&
-                        (!is_new_slip || holdsWithout(made.selected, slips)) &&
+                        is_confirmed &&
                         (!is_doubtful_link || countLinking(made.hypothesis) >= std::min(kLeastWeakLink, between_));
   if (likelier || forced) applyCollapsePenalty(made.hypothesis);
   const bool is_kept = forced || (likelier && !reliesOnInflatedVariance(made.hypothesis));
@@ -249,7 +250,7 @@ void Selection<D>::joinSessions() {
   std::vector<char> tried(roles_.size(), 0);
   for (const int closure : links.doubtful) {
     if (!barred_[sz(closure)] || tried[sz(closure)] || tryLink(closure)) continue;
-    for (std::size_t e = 0; e < tried.size(); ++e) tried[e] |= scored_.back().second[e];
+    for (std::size_t e = 0; e < tried.size(); ++e) tried[e] |= scored_.back().members[e];
   }
 }
 

@@ -71,6 +71,12 @@ class Selection {
     std::optional<bool> is_contradicted;  // computed on demand
   };
 
+  struct Scored {
+    double log_evidence;
+    std::vector<char> members;
+    bool is_confirmed = true;  // holdsWithout() its slips
+  };
+
   // Scores the sets that were compared with one closure per row (HypothesisEvaluator::assessRows()) and keeps the most
   // likely one, if it is decisive over odometry only.
   void decideByRows();
@@ -81,7 +87,8 @@ class Selection {
   // The best set with one closure per row (HypothesisEvaluator::assessRows()), with its own factors.
   const Hypothesis<D>& rowsAlone() const;
 
-  // Removes from `shared` the edges that nearly as likely sets do not contain. Returns whether there are such sets.
+  // Removes from `shared` the edges that nearly as likely sets do not contain. Returns whether there are such sets. A
+  // set refused for its slips, which one row of closures alone may have caused, is a rival that removes nothing.
   bool shareWithSets(std::vector<char>& shared) const;
 
   // Removes from `shared` each unconfirmed row of closures if the map without it differs and is nearly as likely.
@@ -222,7 +229,7 @@ class Selection {
   bool by_rows_ = false;          // best_ has the evidence and the factors of decideByRows()
   mutable std::optional<Hypothesis<D>> rows_alone_;  // computed on demand
   VarianceFactors repeated_with_;
-  std::vector<std::pair<double, std::vector<char>>> scored_;  // log evidence of each set, and its members
+  std::vector<Scored> scored_;
   std::vector<Slip<D>> slips_;
 };
 

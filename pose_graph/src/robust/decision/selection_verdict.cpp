@@ -41,7 +41,7 @@ bool Selection<D>::reliesOnInflatedVariance(const Hypothesis<D>& hypothesis) con
 template <int D>
 void Selection<D>::decideByRows() {
   others_.insert(others_.begin(), best_);
-  std::vector<std::pair<double, std::vector<char>>> scored{{odometry_.log_evidence, odometry_.in}};
+  std::vector<Scored> scored{{odometry_.log_evidence, odometry_.in}};
   const Proposal* likeliest = nullptr;
   Hypothesis<D> found;
   for (const Proposal& each : others_) {
@@ -50,7 +50,7 @@ void Selection<D>::decideByRows() {
     applyCollapsePenalty(rows);
     if (reliesOnInflatedVariance(rows)) continue;
     rows.log_evidence -= std::exchange(rows.collapse_penalty, 0.0);
-    scored.emplace_back(rows.log_evidence, each.members);
+    scored.push_back({rows.log_evidence, each.members});
     if (likeliest && !(rows.log_evidence > found.log_evidence)) continue;
     likeliest = &each;
     found = std::move(rows);
@@ -115,14 +115,14 @@ std::optional<std::vector<char>> Selection<D>::findShared() const {
 template <int D>
 bool Selection<D>::shareWithSets(std::vector<char>& shared) const {
   bool has_rival = false;
-  for (const auto& [log_evidence, in] : scored_) {
+  for (const auto& [log_evidence, in, is_confirmed] : scored_) {
     if (!(log_evidence > best_.hypothesis.log_evidence - kDecisive)) continue;
     std::size_t differ = 0;
     for (std::size_t e = 0; e < roles_.size(); ++e)
       differ += roles_[e] == EdgeRole::Candidate && in[e] != best_.members[e];
     if (!(static_cast<double>(differ) > Thresholds::kContested * static_cast<double>(candidates_))) continue;
     has_rival = true;
-    for (std::size_t e = 0; e < shared.size(); ++e) shared[e] = shared[e] && in[e];
+    for (std::size_t e = 0; e < shared.size() && is_confirmed; ++e) shared[e] = shared[e] && in[e];
   }
   return has_rival;
 }
