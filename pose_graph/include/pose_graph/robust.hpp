@@ -50,8 +50,8 @@ struct SelectionReport {
   /// The graph is too large to compare sets, and closures were rejected or variances are far off.
   bool unweighed = false;
   bool undecided = false;  ///< no set of closures is more likely than chance: odometry only
-  /// Another set with different closures has more than a thousandth of the chosen set's likelihood. Closures that are
-  /// not in both are not used.
+  /// Another set has more than a thousandth of the chosen set's likelihood, and closures that are not in both are not
+  /// used; or odometry as stated contradicts accepted closures that no other closure confirms.
   bool has_rival = false;
   double log_evidence = 0.0;         ///< of the chosen set, relative to odometry only
   std::size_t undecided_priors = 0;  ///< FalsePriors::undecided, for a graph from a file

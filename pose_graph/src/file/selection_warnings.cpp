@@ -117,8 +117,11 @@ std::vector<std::string> selectionWarnings(const SelectionReport& selection, std
         std::to_string(closures) + " are rejected, and the others may fit by chance");
   if (selection.has_rival)
     warnings.push_back(
-        "another set of closures, a rival, is nearly as likely as the accepted one: closures that are not in both are "
-        "left out if many others remain; otherwise the accepted set is a guess");
+        "another set of closures, a rival, is nearly as likely as the accepted one, or odometry contradicts closures "
+        "that no other closure confirms: closures that are not in both sets are left out if many others remain; "
+        "otherwise the accepted set is a guess, with which the errors of odometry are " +
+        twoDigits(std::sqrt(selection.odometry_factor)) + " times the stated deviations, and those of closures " +
+        twoDigits(std::sqrt(selection.closure_factor)) + " times");
   return warnings;
 }
 

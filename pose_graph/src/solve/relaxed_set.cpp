@@ -130,7 +130,7 @@ double RelaxedSet<D>::logDensity() const {
 }
 
 template <int D>
-double RelaxedSet<D>::logDensityGivenOthers(int candidate) const {
+typename RelaxedSet<D>::Prediction RelaxedSet<D>::predictByOthers(int candidate) const {
   constexpr int kAtOnce = 8;
   const std::size_t e = sz(in_core_ ? core_edge_[sz(candidate)] : candidate);
   const Edge<D>& edge = problem().edges[e];
@@ -150,10 +150,11 @@ double RelaxedSet<D>::logDensityGivenOthers(int candidate) const {
       for (int r = 0; r < white.rank; ++r)
         for (int c = 0; c < white.rank; ++c) left(r, c) -= (*J)(r, a) * row(pose, a)[c] / factor;
   const urban_nav_core::SmallCholesky<kN> factored(left);
-  if (!factored.succeeded()) return -std::numeric_limits<double>::infinity();
+  if (!factored.succeeded()) return {};
   double log = 0.5 * log_information_[sz(candidate)] - 0.5 * white.rank * (kLogTwoPi + std::log(factor));
   for (int a = 0; a < white.rank; ++a) log += std::log(factored.factor()(a, a));
-  return log - 0.5 * at.error.dot(factored.solve(at.error)) / factor;
+  const double chi2 = at.error.dot(factored.solve(at.error)) / factor;
+  return {log - 0.5 * chi2, chi2};
 }
 
 template class RelaxedSet<2>;

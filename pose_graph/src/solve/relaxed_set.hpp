@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -41,9 +42,14 @@ class RelaxedSet {
   /// (Laplace's approximation) and a uniform prior of unit density on each. Requires: factor().
   double logDensity() const;
 
-  /// Returns the log density of an accepted candidate given all other measurements, linearised at the minimum; minus
-  /// infinity if the others do not connect its ends. Requires: factor().
-  double logDensityGivenOthers(int candidate) const;
+  /// An accepted candidate predicted by all other measurements, linearised at the minimum.
+  struct Prediction {
+    /// Density of its measurement; minus infinity if the others do not connect its ends.
+    double log_density = -std::numeric_limits<double>::infinity();
+    double chi2 = 0.0;  ///< of its innovation, with rank() degrees of freedom; 0 if the others do not connect its ends
+  };
+  /// Requires: factor().
+  Prediction predictByOthers(int candidate) const;
 
  private:
   const Problem<D>& problem() const { return in_core_ ? core_->problem() : *problem_; }

@@ -81,6 +81,8 @@ TEST(SelectionWarnings, NameAGuess) {
   selection.has_rival = true;
   ASSERT_EQ(selectionWarnings(selection, 3, 10).size(), 1u);
   EXPECT_NE(selectionWarnings(selection, 3, 10)[0].find("nearly as likely"), std::string::npos);
+  selection.odometry_factor = 9.0;
+  EXPECT_NE(selectionWarnings(selection, 3, 10)[0].find("odometry are 3 times the stated"), std::string::npos);
 }
 
 }  // namespace

@@ -321,6 +321,17 @@ TEST(Selection, TrueAssertionsHoldARealDriveTogether) {
   EXPECT_GT(selected.closures(ClosureVerdict::Accepted), 1000u);
 }
 
+// Indoor scan matches: closures of one row agree with each other far better than with those of other rows, and 168 of
+// 401 are more than 2 m or 0.2 rad off.
+TEST(Selection, RowsWithCommonErrorsAreDecidedByOneClosureOfEach) {
+  const auto file = test::readPublic("bicocca_0.100");
+  if (!file) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with graphs/bicocca_0.100.g2o.xz";
+  const Selected<2> selected(makeProblem<2>(*file, "bicocca_0.100").problem);
+  EXPECT_FALSE(selected.robust.selection.undecided);
+  EXPECT_GT(selected.closures(ClosureVerdict::Accepted), 200u);
+  EXPECT_LT(selected.closures(ClosureVerdict::Accepted), 240u);
+}
+
 // A drive whose odometry is strongly overconfident: 76 of 77 closures are false, and all fit once variances are
 // enlarged. Also with a second session joined by two true closures.
 TEST(Selection, FalseClosuresThatFitByEnlargedVariancesStayOutInTwoSessionsToo) {

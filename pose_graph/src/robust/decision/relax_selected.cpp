@@ -173,7 +173,8 @@ RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<Edg
     report.log_evidence = selection.evidence();
     report.undecided = selection.isUndecided();
     takes_unopposed = selection.unopposed() && (report.undecided || selection.rejectsAny());
-    report.has_rival = !report.undecided && !takes_unopposed && selection.keepShared();
+    report.has_rival =
+        !report.undecided && !takes_unopposed && (selection.keepShared() || selection.contradictsOdometry());
     if (selection.hasVariances()) factors = selection.hypothesis().factors;
     report.odometry_factor = factors.odometry;
     report.closure_factor = factors.closures;

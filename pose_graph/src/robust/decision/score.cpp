@@ -18,6 +18,7 @@
 #include "robust/evidence/variances.hpp"
 #include "start/along_edges.hpp"
 #include "urban_nav_core/geometry/small_matrices.hpp"
+#include "urban_nav_core/trajectory/chi_square.hpp"
 
 namespace pose_graph {
 
@@ -240,10 +241,11 @@ void HypothesisEvaluator<D>::evaluate(Hypothesis<D>& hypothesis) const {
 }
 
 template <int D>
-double HypothesisEvaluator<D>::gainByFactors(const Hypothesis<D>& hypothesis) const {
+double HypothesisEvaluator<D>::gainByFactors(const Hypothesis<D>& hypothesis, bool by_rows) const {
   Hypothesis<D> as_stated = hypothesis;
   as_stated.factors = {};
-  assess(as_stated, 0);
+  if (by_rows) as_stated = assessRows(as_stated, 0);
+  else assess(as_stated, 0);
   return hypothesis.log_evidence - as_stated.log_evidence;
 }
 
@@ -362,9 +364,32 @@ std::vector<double> HypothesisEvaluator<D>::estimateLosses(const Hypothesis<D>& 
       if (rows.in[sz(e)]) first.push_back(e);
     }
     if (first.size() == 1)
-      losses[r] = set_->logDensityGivenOthers(first.front()) + with - followersInside(rest) - chance(rest);
+      losses[r] = set_->predictByOthers(first.front()).log_density + with - followersInside(rest) - chance(rest);
   }
   return losses;
+}
+
+template <int D>
+bool HypothesisEvaluator<D>::hasContradictedRow(const Hypothesis<D>& hypothesis) const {
+  const std::vector<std::vector<int>> rows = unconfirmedRows(hypothesis);
+  Hypothesis<D> set = hypothesis;
+  set.factors = {};
+  for (const std::vector<int>& row : rows)
+    for (const int e : row) set.in[sz(e)] = e == row.front();
+  const auto excess = [&](const std::vector<int>& row) {
+    const int dof = set_->rank(sz(row.front()));
+    return set_->predictByOthers(row.front()).chi2 /
+           urban_nav_core::chiSquareQuantile(1.0 - Thresholds::kNegligible, dof);
+  };
+  if (rows.empty() || !std::isfinite(assessRows(set, 0).log_evidence)) return false;
+  const auto worst = std::max_element(rows.begin(), rows.end(),
+                                      [&](const auto& a, const auto& b) { return excess(a) < excess(b); });
+  if (!(excess(*worst) > 1.0)) return false;
+  Hypothesis<D> rest = set;
+  rest.in[sz(worst->front())] = 0;
+  const VarianceFactors found = assessRows(rest, kRounds).factors;
+  set.factors = {std::max(1.0, found.odometry), std::max(1.0, found.closures)};
+  return std::isfinite(assessRows(set, 0).log_evidence) && excess(*worst) > 1.0;
 }
 
 template <int D>

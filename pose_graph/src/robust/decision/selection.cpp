@@ -13,14 +13,10 @@ namespace pose_graph {
 
 namespace {
 
-// Log Bayes factor required per row of closures, on average, if variances are beyond kContestedFactor.
-constexpr double kEachDecisive = 2.0;
 constexpr int kRow = 5;  // of the closures of a group outside, one in kRow is used
 // Work limit relative to the best set, and absolute (block multiplications, a fraction of a second). Sets above both
 // contain false closures between distant places that fill the factor; none was better in tests.
 constexpr double kDense = 20.0, kSoonFactored = 1e7;
-// Number of other rows per unconfirmed row above which it is left out, as in an exchange of groups.
-constexpr double kOthers = 8.0;
 // Number of poses above which an uncontested set is not scored, and above which only one selection is run; it is
 // scored if the core graph of the chains is not larger than that.
 constexpr std::size_t kManyPoses = 20000, kMostPoses = 200000;
@@ -41,12 +37,12 @@ void Selection<D>::run() {
   contested_ = isContested(best_.selected) || between_ > 0;
   evaluator_ = std::make_unique<HypothesisEvaluator<D>>(problem_, roles_);
   odometry_ = evaluator_->evaluateOdometry();
-  scored_.emplace_back(odometry_.log_evidence, odometry_.in);
+  scored_.push_back({odometry_.log_evidence, odometry_.in});
   best_.hypothesis = hypothesisOver(best_.selected, {});
   evaluator_->evaluate(best_.hypothesis);
   readmit(best_);
   applyCollapsePenalty(best_.hypothesis);
-  scored_.emplace_back(best_.hypothesis.log_evidence, best_.members);
+  scored_.push_back({best_.hypothesis.log_evidence, best_.members});
   if (between_ > 0 && rejected(best_.selected) == 0 && !isLoosened()) unopposed_ = best_.selected;
   if (!contested_) {
     // A short slip affects few closures; a single one does not contradict a step.
@@ -60,19 +56,7 @@ void Selection<D>::run() {
   if (between_ > 0) joinSessions();
   proposeSlips({});
   if (!evaluator_->areAssertions()) tryScales();
-}
-
-template <int D>
-bool Selection<D>::isUndecided() const {
-  if (contested_ || core_) return !(evidence() >= kDecisive);
-  const double loosened = kDecisive + kEachDecisive * evaluator_->rowsInside(best_.hypothesis);
-  // Factors estimated from the rows make them more likely; the collapse penalty is about that of all closures.
-  if (overOdometry(rowsAlone()) - best_.hypothesis.collapse_penalty >= loosened) return false;
-  Hypothesis<D> rows = evaluator_->assessRows(best_.hypothesis, HypothesisEvaluator<D>::kRounds);
-  rows.collapse_penalty = 0.0;  // computed for another volume
-  applyCollapsePenalty(rows);
-  const bool is_loosened = std::max(rows.factors.odometry, rows.factors.closures) > kContestedFactor;
-  return !(overOdometry(rows) >= (is_loosened ? loosened : -kDecisive));
+  if (between_ == 0 && !evaluator_->areAssertions() && evidence() < kDecisive) decideByRows();
 }
 
 template <int D>
@@ -85,100 +69,6 @@ std::vector<char> Selection<D>::inUncontestedParts() const {
   }
   for (std::size_t i = 0; i < uncontested.size(); ++i) uncontested[i] = !contested_part[sz(parts_[i])];
   return uncontested;
-}
-
-template <int D>
-bool Selection<D>::keepShared() {
-  const std::optional<std::vector<char>> shared = findShared();
-  if (!shared) return false;
-  std::vector<EdgeAssessment>& edges = best_.selected.edges;
-  bool changed = false;
-  for (std::size_t e = 0; e < roles_.size(); ++e) {
-    if (roles_[e] != EdgeRole::Candidate || !(edges[e].weight > 0.0) || (*shared)[e]) continue;
-    edges[e].weight = 0.0;
-    edges[e].verdict = urban_nav_core::ClosureVerdict::Rejected;
-    edges[e].reason = Reason::Undecided;
-    changed = true;
-  }
-  if (!changed) return true;
-  if (!holdsWithout(best_.selected, best_.slips)) {
-    for (const Slip<D>& slip : best_.slips) {
-      edges[sz(slip.edge)].weight = 1.0;
-      edges[sz(slip.edge)].verdict = urban_nav_core::ClosureVerdict::Accepted;
-      edges[sz(slip.edge)].reason = Reason::Role;
-    }
-  }
-  std::vector<char> in;
-  for (const EdgeAssessment& edge : edges) in.push_back(edge.weight > 0.0);
-  AcceptedGraph<D> graph(problem_);
-  graph.take(in);
-  graph.relax(best_.selected.poses, kRoundSteps, kRoundShare, true);
-  if (core_) return true;
-  Hypothesis<D> kept = hypothesisOver(best_.selected, {});
-  evaluator_->evaluate(kept);
-  best_.hypothesis.factors = kept.factors;  // without the closures left out
-  return true;
-}
-
-template <int D>
-bool Selection<D>::isRescaled() const {
-  const VarianceFactors& found = best_.hypothesis.factors;
-  return hasVariances() && beyond(found.odometry / found.closures, kContestedFactor) &&
-         evaluator_->gainByFactors(best_.hypothesis) >= kDecisive;
-}
-
-template <int D>
-std::optional<std::vector<char>> Selection<D>::findShared() const {
-  std::vector<char> shared = best_.members;
-  bool has_rival = contested_ && shareWithSets(shared);
-  if (evaluator_ && !evaluator_->areAssertions() && !core_) has_rival |= shareWithoutRows(shared);
-  return has_rival ? std::make_optional(shared) : std::nullopt;
-}
-
-template <int D>
-bool Selection<D>::shareWithSets(std::vector<char>& shared) const {
-  bool has_rival = false;
-  for (const auto& [log_evidence, in] : scored_) {
-    if (!(log_evidence > best_.hypothesis.log_evidence - kDecisive)) continue;
-    std::size_t differ = 0;
-    for (std::size_t e = 0; e < roles_.size(); ++e)
-      differ += roles_[e] == EdgeRole::Candidate && in[e] != best_.members[e];
-    if (!(static_cast<double>(differ) > Thresholds::kContested * static_cast<double>(candidates_))) continue;
-    has_rival = true;
-    for (std::size_t e = 0; e < shared.size(); ++e) shared[e] = shared[e] && in[e];
-  }
-  return has_rival;
-}
-
-template <int D>
-bool Selection<D>::shareWithoutRows(std::vector<char>& shared) const {
-  const std::vector<std::vector<int>> rows = evaluator_->unconfirmedRows(best_.hypothesis);
-  if (rows.empty()) return false;
-  const Hypothesis<D>& all = rowsAlone();
-  const std::vector<double> losses = evaluator_->estimateLosses(all, best_.hypothesis, rows);
-  std::vector<int> nearly_as_likely;  // closures of such rows
-  double rivals = 0.0;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    if (losses[r] >= 2.0 * kDecisive) continue;  // linearisation is sufficiently accurate
-    Hypothesis<D> rest = best_.hypothesis;
-    for (const int e : rows[r]) rest.in[sz(e)] = 0;
-    const Hypothesis<D> without = evaluator_->assessRows(rest, 0);
-    if (!(all.log_evidence - without.log_evidence < kDecisive)) continue;
-    if (best_.slips.empty() && !evaluator_->isDisplaced(without.poses, all.poses)) continue;
-    nearly_as_likely.insert(nearly_as_likely.end(), rows[r].begin(), rows[r].end());
-    ++rivals;
-  }
-  // Among few rows, missing confirmation does not indicate an error.
-  if (evaluator_->rowsInside(best_.hypothesis) >= kOthers * rivals) {
-    for (const int e : nearly_as_likely) shared[sz(e)] = 0;
-  }
-  return rivals > 0.0;
-}
-
-template <int D>
-const Hypothesis<D>& Selection<D>::rowsAlone() const {
-  if (!rows_alone_) rows_alone_ = evaluator_->assessRows(best_.hypothesis, 0);
-  return *rows_alone_;
 }
 
 template <int D>
@@ -195,13 +85,6 @@ Hypothesis<D> Selection<D>::hypothesisOver(const SelectedEdges<D>& selected, con
   made.poses = selected.poses;
   made.factors = factors;
   return made;
-}
-
-template <int D>
-bool Selection<D>::reliesOnInflatedVariance(const Hypothesis<D>& hypothesis) const {
-  if (overOdometry(hypothesis) < kDecisive) return true;
-  if (!hypothesis.factors.areBeyond(kContestedFactor)) return false;
-  return overOdometry(hypothesis) < kDecisive + kEachDecisive * evaluator_->rowsInside(hypothesis);
 }
 
 template <int D>
@@ -293,19 +176,21 @@ bool Selection<D>::propose(const VarianceFactors& factors, const std::vector<Sli
   made.hypothesis = hypothesisOver(made.selected, factors);
   readmit(made);
   const bool known =
-      std::any_of(scored_.begin(), scored_.end(), [&](const auto& other) { return other.second == made.members; });
+      std::any_of(scored_.begin(), scored_.end(), [&](const auto& other) { return other.members == made.members; });
   if (known && !forced && !is_doubtful_link) return false;
   evaluator_->evaluate(made.hypothesis);
-  scored_.emplace_back(made.hypothesis.log_evidence, made.members);
   const bool is_new_slip = slips.size() > best_.slips.size();
+  const bool is_confirmed = !is_new_slip || holdsWithout(made.selected, slips);
+  scored_.push_back({made.hypothesis.log_evidence, made.members, is_confirmed});
   const bool likelier = made.hypothesis.log_evidence >
                             best_.hypothesis.log_evidence + (is_new_slip || is_doubtful_link ? kDecisive : 0.0) &&
-                        (!is_new_slip || holdsWithout(made.selected, slips)) &&
+                        is_confirmed &&
                         (!is_doubtful_link || countLinking(made.hypothesis) >= std::min(kLeastWeakLink, between_));
   if (likelier || forced) applyCollapsePenalty(made.hypothesis);
-  if (!forced && (!likelier || reliesOnInflatedVariance(made.hypothesis))) return false;
-  best_ = std::move(made);
-  return true;
+  const bool is_kept = forced || (likelier && !reliesOnInflatedVariance(made.hypothesis));
+  if (is_kept) std::swap(best_, made);
+  if (made.slips.empty()) others_.push_back(std::move(made));
+  return is_kept;
 }
 
 template <int D>
@@ -365,7 +250,7 @@ void Selection<D>::joinSessions() {
   std::vector<char> tried(roles_.size(), 0);
   for (const int closure : links.doubtful) {
     if (!barred_[sz(closure)] || tried[sz(closure)] || tryLink(closure)) continue;
-    for (std::size_t e = 0; e < tried.size(); ++e) tried[e] |= scored_.back().second[e];
+    for (std::size_t e = 0; e < tried.size(); ++e) tried[e] |= scored_.back().members[e];
   }
 }
 

@@ -50,6 +50,11 @@ class Selection {
   /// Returns whether the variance factors of odometry and closures differ by far, with decisive evidence.
   bool isRescaled() const;
   bool isThinlyJoined() const { return between_ < kLeastWeakLink; }
+  /// Returns whether a row of accepted closures that no other closure confirms contradicts odometry with its stated
+  /// variances (HypothesisEvaluator::hasContradictedRow()).
+  bool contradictsOdometry() const {
+    return hasVariances() && !core_ && evaluator_->hasContradictedRow(best_.hypothesis);
+  }
   bool rejectsAny() const { return rejected(best_.selected) > 0; }
   double evidence() const { return overOdometry(best_.hypothesis); }
   const Hypothesis<D>& odometryAlone() const { return odometry_; }
@@ -66,13 +71,24 @@ class Selection {
     std::optional<bool> is_contradicted;  // computed on demand
   };
 
+  struct Scored {
+    double log_evidence;
+    std::vector<char> members;
+    bool is_confirmed = true;  // holdsWithout() its slips
+  };
+
+  // Scores the sets that were compared with one closure per row (HypothesisEvaluator::assessRows()) and keeps the most
+  // likely one, if it is decisive over odometry only.
+  void decideByRows();
+
   // Edges common to the best set and all its rivals; empty if there is no rival.
   std::optional<std::vector<char>> findShared() const;
 
   // The best set with one closure per row (HypothesisEvaluator::assessRows()), with its own factors.
   const Hypothesis<D>& rowsAlone() const;
 
-  // Removes from `shared` the edges that nearly as likely sets do not contain. Returns whether there are such sets.
+  // Removes from `shared` the edges that nearly as likely sets do not contain. Returns whether there are such sets. A
+  // set refused for its slips, which one row of closures alone may have caused, is a rival that removes nothing.
   bool shareWithSets(std::vector<char>& shared) const;
 
   // Removes from `shared` each unconfirmed row of closures if the map without it differs and is nearly as likely.
@@ -209,9 +225,11 @@ class Selection {
   std::unique_ptr<HypothesisEvaluator<D>> evaluator_;
   Hypothesis<D> odometry_;
   Proposal best_;
+  std::vector<Proposal> others_;  // compared with the best set, without slips
+  bool by_rows_ = false;          // best_ has the evidence and the factors of decideByRows()
   mutable std::optional<Hypothesis<D>> rows_alone_;  // computed on demand
   VarianceFactors repeated_with_;
-  std::vector<std::pair<double, std::vector<char>>> scored_;  // log evidence of each set, and its members
+  std::vector<Scored> scored_;
   std::vector<Slip<D>> slips_;
 };
 
