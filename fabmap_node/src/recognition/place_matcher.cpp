@@ -17,7 +17,7 @@ namespace {
 /// A candidate elsewhere shows the same place, in another session or on another lap, if its agreement with both the
 /// query and the best place is at least this share of the agreement of query and best place.
 constexpr double kSamePlaceShare = 0.5;
-constexpr std::size_t kThinning = 4;       // of the descriptors in the first comparison
+constexpr std::size_t kThinning = 4;       // of the descriptors of single images in the first comparison
 constexpr int kSmallestSelection = 10;     // candidates without descriptor matching
 constexpr std::size_t kMostSorted = 1000;  // candidates, unless more are required
 
@@ -147,13 +147,12 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::comparedCandidates(
   std::vector<Candidate> candidates = likeliest(likelihoods, isCandidate);
   if (options_.second_looks > 0 && !candidates.empty()) {
     const LookFeatures own = unpackPlaceLook(query.look, query);
-    if (candidates.size() > static_cast<std::size_t>(options_.second_looks)) {
-      compareAll(own, kThinning, candidates);
-      std::stable_sort(candidates.begin(), candidates.end(),
-                       [](const Candidate& a, const Candidate& b) { return a.look.share > b.look.share; });
-      candidates = selectVaried(candidates, options_.second_looks);
-    }
-    compareAll(own, 1, candidates);
+    const bool is_thinned = own.cameras == 1 && candidates.size() > static_cast<std::size_t>(options_.second_looks);
+    compareAll(own, is_thinned ? kThinning : 1, candidates);
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.look.share > b.look.share; });
+    candidates = selectVaried(candidates, options_.second_looks);
+    if (is_thinned) compareAll(own, 1, candidates);
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.look.share != b.look.share ? a.look.share > b.look.share : a.log_likelihood > b.log_likelihood;

@@ -108,6 +108,21 @@ TEST(PlaceModel, ReadsBackWhatWasPrinted) {
   EXPECT_EQ(read.tree.p, trainedOnce().model.tree.p);
 }
 
+// Their panoramas were calibrated for another comparison of descriptors.
+TEST(PlaceModel, ModelsOfVersionTwoTakeOnlyTheCalibrationsOfPanoramasOfTheBuiltInModel) {
+  const PlaceModel& trained = trainedOnce().model;
+  const PlaceModel read = parseModel(urban_nav_core::seal("places model", 2, printModelContent(trained)), "model");
+  EXPECT_EQ(read.vocabulary.centres(), trained.vocabulary.centres());
+  EXPECT_EQ(read.tree.parent, trained.tree.parent);
+  const PlaceModel built_in = defaultModel();
+  PlaceEvidence evidence;
+  evidence.look = evidence.look_margin = 0.3;
+  EXPECT_EQ(read.calibration(1).probability(evidence), trained.calibration(1).probability(evidence));
+  EXPECT_EQ(read.calibration(5).probability(evidence), built_in.calibration(5).probability(evidence));
+  EXPECT_NE(read.calibration(5).probability(evidence), trained.calibration(5).probability(evidence));
+  ASSERT_EQ(read.sequenceCalibration(5).has_value(), built_in.sequenceCalibration(5).has_value());
+}
+
 TEST(PlaceModel, ModelsOfOpenCvFeaturesAreRefusedByName) {
   const std::string orb("\2\0\0\0", 4);  // the kind of features, which version 3 of the file begins with
   const std::string bytes = urban_nav_core::seal("places model", 3, orb + printModelContent(trainedOnce().model));

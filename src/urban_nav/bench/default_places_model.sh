@@ -1,17 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Makes fabmap_node/config/default.places: panoramas of simulated worlds whose seeds no test, bench or demo uses, the
-# model that `places train` learns from them, and its calibration on other sites: five on two days, whose light differs,
-# and ten on one day each, which look like the others and are not. Takes some half an hour on one core.
+# model that `places train` learns from them, and its calibration on other sites: five on days 1 to 4 (dry, dry, wet,
+# winter), whose light differs, and ten on one day each, which look like the others and are not. Takes some 40 minutes
+# on one core.
 # Usage: default_places_model.sh [FOLDER for the bags, default: a temporary one]
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
 folder=${1:-$(mktemp -d)}
 drives=("quad 910001 1 60" "street 910002 1 60" "quad 910004 2 60") # world, seed, day, seconds
-calibration=("quad 920001 1 40" "quad 920001 2 40" "quad 920002 1 40" "quad 920002 2 40"
-  "street 920003 1 40" "street 920003 2 40" "street 920004 1 30" "street 920004 2 30"
-  "begbroke 920005 1 40" "begbroke 920005 2 40"
+calibration=("quad 920001 1 40" "quad 920001 2 20" "quad 920001 3 20" "quad 920001 4 20"
+  "quad 920002 1 40" "quad 920002 2 20" "quad 920002 3 20" "quad 920002 4 20"
+  "street 920003 1 40" "street 920003 2 20" "street 920003 3 20" "street 920003 4 20"
+  "street 920004 1 40" "street 920004 2 20" "street 920004 3 20" "street 920004 4 20"
+  "begbroke 920005 1 40" "begbroke 920005 2 20" "begbroke 920005 3 20" "begbroke 920005 4 20"
   "quad 921001 1 12" "street 921002 1 12" "quad 921003 1 12" "street 921004 1 12" "begbroke 921005 1 12"
   "quad 921006 1 12" "street 921007 1 12" "quad 921008 1 12" "street 921009 1 12" "begbroke 921010 1 12")
 

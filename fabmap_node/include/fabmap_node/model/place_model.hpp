@@ -30,8 +30,9 @@ struct PlaceModel {
 
 /// Returns the bytes of a model: versioned, with a checksum, identical on every machine.
 std::string printModel(const PlaceModel& model);
-/// Parses the output of printModel(). Throws DataError with `name` if the bytes are truncated, damaged, of another
-/// version, of a model with OpenCV's features, or inconsistent.
+/// Parses the output of printModel(). Models of earlier versions, whose panoramas are calibrated for another comparison
+/// of descriptors, use the calibrations of panoramas of the built-in model. Throws DataError with `name` if the bytes
+/// are truncated, damaged, of a later version, of a model with OpenCV's features, or inconsistent.
 PlaceModel parseModel(std::string_view bytes, const std::string& name);
 /// Returns the bytes of a model without version and checksum, for tests with damaged content.
 std::string printModelContent(const PlaceModel& model);

@@ -15,9 +15,10 @@
 namespace fabmap_node {
 
 struct MatcherOptions {
-  int first_looks = 30;             ///< likeliest candidates of which a quarter of the descriptors is compared
-  int second_looks = 10;            ///< candidates of which all descriptors are compared; 0: none
-  std::size_t look_features = 540;  ///< features per place for descriptor matching: 19 kB
+  int first_looks = 30;             ///< likeliest candidates by words, of which descriptors are compared: of single
+                                    ///< images a quarter, of panoramas all
+  int second_looks = 10;            ///< candidates of these with the best agreement, of which all are; 0: none
+  std::size_t look_features = 540;  ///< features per single image for descriptor matching; lookFeatures(): 20 kB
   urban_nav_core::StampNs elsewhere = 10'000'000'000;  ///< smallest time between places of one session that are
                                                        ///< elsewhere, ns
 };
