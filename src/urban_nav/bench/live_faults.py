@@ -4,7 +4,7 @@
   live_faults.py BAG [--only NAME]... [-o FILE.json] [--work DIR]
 
 BAG: of `urban_nav simulate`, with stereo camera, lasers, IMU and wheels, at least 22 s; its truth in the folder BAG_STEM.truth. Each fault runs by itself in
-real time for about 40 s, in the stages of support/live_faults.launch. Needs a sourced workspace (. build/ws/devel/setup.bash), and root for the full disk.
+real time for about 40 s, in the stages of support/live_faults.xml. Needs a sourced workspace (. build/ws/devel/setup.bash), and root for the full disk.
 """
 import argparse
 import copy
@@ -182,7 +182,7 @@ class Rig:
         self.is_mounted = fault.is_small_disk and subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "tmpfs", folder]).returncode == 0
         self.folder, self.player, self.recorder = folder, Player(bag, DURATION, fault.tf_at), Recorder()
         arguments = {"store": self.store, **fault.arguments}
-        words = [HERE / "support" / "live_faults.launch"]
+        words = [HERE / "support" / "live_faults.xml"]
         if fault.is_recording:
             words = ["urban_nav_launch", "bag.launch"]
             arguments.update(bag=bag, rviz="false")
