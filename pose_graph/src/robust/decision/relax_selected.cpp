@@ -173,12 +173,12 @@ RobustSolution<D> relaxSelected(const Problem<D>& problem, const std::vector<Edg
     report.log_evidence = selection.evidence();
     report.undecided = selection.isUndecided();
     takes_unopposed = selection.unopposed() && (report.undecided || selection.rejectsAny());
-    report.has_rival =
-        !report.undecided && !takes_unopposed && (selection.keepShared() || selection.contradictsOdometry());
+    const bool is_decided = !report.undecided && !takes_unopposed, has_other_set = is_decided && selection.keepShared();
+    report.has_rival = has_other_set || (is_decided && selection.contradictsOdometry());
     if (selection.hasVariances()) factors = selection.hypothesis().factors;
     report.odometry_factor = factors.odometry;
     report.closure_factor = factors.closures;
-    report.rescaled = !report.undecided && !report.has_rival && selection.isRescaled();
+    report.rescaled = !report.undecided && !has_other_set && selection.isRescaled();
   }
   const std::vector<char> stays = report.undecided ? selection.inUncontestedParts() : std::vector<char>();
   SelectedEdges<D> chosen = takes_unopposed ? *selection.unopposed() : selection.take();

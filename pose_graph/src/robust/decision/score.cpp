@@ -376,14 +376,15 @@ bool HypothesisEvaluator<D>::hasContradictedRow(const Hypothesis<D>& hypothesis)
   set.factors = {};
   for (const std::vector<int>& row : rows)
     for (const int e : row) set.in[sz(e)] = e == row.front();
+  if (rows.empty()) return false;
+  const double probability = 1.0 - Thresholds::kNegligible / static_cast<double>(rows.size());  // of the largest
   const auto excess = [&](const std::vector<int>& row) {
     const int dof = set_->rank(sz(row.front()));
-    return set_->predictByOthers(row.front()).chi2 /
-           urban_nav_core::chiSquareQuantile(1.0 - Thresholds::kNegligible, dof);
+    return set_->predictByOthers(row.front()).chi2 / urban_nav_core::chiSquareQuantile(probability, dof);
   };
-  if (rows.empty() || !std::isfinite(assessRows(set, 0).log_evidence)) return false;
-  const auto worst = std::max_element(rows.begin(), rows.end(),
-                                      [&](const auto& a, const auto& b) { return excess(a) < excess(b); });
+  if (!std::isfinite(assessRows(set, 0).log_evidence)) return false;
+  const auto worst =
+      std::max_element(rows.begin(), rows.end(), [&](const auto& a, const auto& b) { return excess(a) < excess(b); });
   if (!(excess(*worst) > 1.0)) return false;
   Hypothesis<D> rest = set;
   rest.in[sz(worst->front())] = 0;

@@ -92,8 +92,9 @@ class HypothesisEvaluator {
                                      const std::vector<std::vector<int>>& without) const;
 
   /// Returns whether a row inside that no other closure confirms (unconfirmedRows()) contradicts the rest of the set.
-  /// Test: chi-square of its first closure at 99.9 %, with the variances estimated without the row, at least those
-  /// stated. With variances estimated from the row itself, odometry would never contradict it.
+  /// Test: chi-square of its first closure at 99.9 %, divided among these rows (Bonferroni), with the variances
+  /// estimated without the row, at least those stated. With variances estimated from the row itself, odometry would
+  /// never contradict it.
   bool hasContradictedRow(const Hypothesis<D>& hypothesis) const;
 
   /// Returns the closures outside a set, by edge, of rows with more closures inside than outside.

@@ -225,8 +225,8 @@ class Selection {
   std::unique_ptr<HypothesisEvaluator<D>> evaluator_;
   Hypothesis<D> odometry_;
   Proposal best_;
-  std::vector<Proposal> others_;  // compared with the best set, without slips
-  bool by_rows_ = false;          // best_ has the evidence and the factors of decideByRows()
+  std::vector<Proposal> others_;                     // compared with the best set, without slips
+  bool by_rows_ = false;                             // best_ has the evidence and the factors of decideByRows()
   mutable std::optional<Hypothesis<D>> rows_alone_;  // computed on demand
   VarianceFactors repeated_with_;
   std::vector<Scored> scored_;
