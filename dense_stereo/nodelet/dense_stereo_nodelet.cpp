@@ -62,7 +62,7 @@ class DenseStereoStage {
 
 DenseStereoStage::DenseStereoStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
-  node.setQueueSize(nodelet_.queue_size);
+  node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
   publisher_ = std::make_unique<Publisher>(node);
   stereo_ = std::make_unique<LiveStereo>(parameters_);
   accelerometer_ =

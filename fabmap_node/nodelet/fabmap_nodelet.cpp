@@ -117,7 +117,7 @@ class FabmapStage {
 
 FabmapStage::FabmapStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
-  node.setQueueSize(nodelet_.queue_size);
+  node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
   places_ = std::make_unique<LivePlaces>(parameters_, LiveSessionName{nodelet_.robot, nodelet_.recording, true},
                                          nodelet_.store, storeOptions());
   loadMap();

@@ -108,7 +108,7 @@ LaserMapperStage::LaserMapperStage(Node& node) : node_(node) {
   urban_nav_registration::Parameters registration;
   std::tie(nodelet_, parameters_, registration) = urban_nav_ros::readParameters(
       node.nh(), node.privateHandle(), nodeletTable(), table(), urban_nav_registration::table());
-  node.setQueueSize(nodelet_.queue_size);
+  node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
   map_ = std::make_unique<LiveMap>(parameters_, temporaryStore(node.name()), registration.cloud_half_length);
   cloud_ = node.nh().advertise<sensor_msgs::PointCloud2>(urban_nav_ros::topics::kMapCloud, 1, true);
   tiles_ = node.nh().advertise<urban_nav_msgs::MapTile>(urban_nav_ros::topics::kMapTiles, 100);

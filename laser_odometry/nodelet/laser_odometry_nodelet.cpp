@@ -62,7 +62,7 @@ class LaserOdometryStage {
 
 LaserOdometryStage::LaserOdometryStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
-  node.setQueueSize(nodelet_.queue_size);
+  node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
   clouds_.are_deskewed = nodelet_.deskewed;
   publisher_ = std::make_unique<Publisher>(
       node, Publisher::Frames{nodelet_.odom_frame, nodelet_.base_frame, nodelet_.publish_tf});

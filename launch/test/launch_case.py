@@ -30,6 +30,8 @@ DISPLAYS = {
     "rviz/Pose": ("Topic", "geometry_msgs/PoseStamped"),
     "rviz/PoseWithCovariance": ("Topic", "geometry_msgs/PoseWithCovarianceStamped"),
 }
+STAGES = ("swf_vo", "laser_odometry", "loop_metric", "dense_stereo", "localization", "fabmap_node", "laser_mapper", "scene_labeler", "pose_graph",
+          "trust", "stereo_rectify")
 WITHOUT_TOPIC = {"rviz/Grid", "rviz/TF", "rviz/Axes"}
 
 
@@ -41,7 +43,7 @@ class LaunchCase(unittest.TestCase):
         rospy.set_param("/swf_vo/queue_size", 100000)
         rospy.set_param("/swf_vo/max_lateness", 1.0)  # s: left and right images come on connections of their own
         rospy.set_param("/stereo_rectify/queue_size", 100000)
-        for stage in ("swf_vo", "loop_metric", "dense_stereo", "localization"):
+        for stage in STAGES:
             rospy.set_param(f"/{stage}/drain_s", 0.8 * SIGINT_TIMEOUT)  # nor given up after an interrupt
         cls.folder = tempfile.mkdtemp()
         cls.addClassCleanup(shutil.rmtree, cls.folder)

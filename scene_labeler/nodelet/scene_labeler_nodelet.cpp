@@ -121,7 +121,7 @@ class SceneLabelerStage {
 SceneLabelerStage::SceneLabelerStage(Node& node) : node_(node) {
   Parameters parameters;
   std::tie(nodelet_, parameters) = node.parameters(nodeletTable(), table());
-  node.setQueueSize(nodelet_.queue_size);
+  node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
   labels_ = std::make_unique<LiveLabels>(parameters, readModel(parameters.model), outputs());
   image_ = node.nh().advertise<sensor_msgs::Image>(urban_nav_ros::topics::kLabelImage, 10);
   cloud_ = node.nh().advertise<sensor_msgs::PointCloud2>(urban_nav_ros::topics::kLabelCloud, 10);

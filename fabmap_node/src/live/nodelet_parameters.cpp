@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "urban_nav_live/drain_row.hpp"
+
 namespace fabmap_node {
 
 using urban_nav_core::Table;
@@ -26,6 +28,7 @@ const Table<NodeletParameters>& nodeletTable() {
           {"queue_size", &P::queue_size, "messages", std::int64_t{100}, std::int64_t{5}, std::int64_t{10000}, {},
            "Largest number of waiting images and poses; beyond it the oldest is dropped and counted.",
            "docs/architecture.md"},
+          urban_nav_live::drainRow(&P::drain_s),
           {"max_lateness", &P::max_lateness, "s", 0.2, 0.0, 10.0, {},
            "Time by stamps that a panorama waits for missing images.", "docs/architecture.md"},
           {"robot", &P::robot, "", "", false, false, {},

@@ -12,6 +12,7 @@ struct NodeletParameters {
   int cameras;  // cameras of the panoramic head; 1: the left camera
   bool compressed;
   int queue_size;       // images
+  double drain_s;       // s
   double max_lateness;  // s
   std::string robot, recording;
   std::string map;    // path of a store; empty: none

@@ -14,6 +14,7 @@ struct NodeletParameters {
   double tile_bandwidth;  // MB/s
   bool live_constraints;
   int queue_size;  // messages
+  double drain_s;  // s
 
   NodeletParameters();
 };

@@ -2,6 +2,7 @@
 #include "live/nodelet_parameters.hpp"
 
 #include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_live/drain_row.hpp"
 
 namespace laser_odometry {
 
@@ -32,6 +33,7 @@ const Table<NodeletParameters>& nodeletTable() {
            "Whether the driver already compensates the motion within a sweep.", "docs/architecture.md"},
           {"queue_size", &P::queue_size, "messages", std::int64_t{20}, std::int64_t{2}, std::int64_t{1000000}, {},
            "Inputs that may wait; beyond that the oldest is dropped and counted.", "docs/architecture.md"},
+          urban_nav_live::drainRow(&P::drain_s),
       });
   return rows;
 }

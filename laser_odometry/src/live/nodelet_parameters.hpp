@@ -15,6 +15,7 @@ struct NodeletParameters {
   bool publish_tf;
   bool deskewed;
   int queue_size;  // messages
+  double drain_s;  // s
 
   NodeletParameters();
 };

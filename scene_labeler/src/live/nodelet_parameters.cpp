@@ -2,6 +2,7 @@
 #include "live/nodelet_parameters.hpp"
 
 #include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_live/drain_row.hpp"
 
 namespace scene_labeler {
 
@@ -25,6 +26,7 @@ const Table<NodeletParameters>& nodeletTable() {
            "docs/architecture.md"},
           {"queue_size", &P::queue_size, "messages", 4000, 2, 1000000, {},
            "Largest number of waiting inputs; beyond it the oldest is dropped and counted.", "docs/architecture.md"},
+          urban_nav_live::drainRow(&P::drain_s),
       });
   return rows;
 }

@@ -12,6 +12,7 @@ struct NodeletParameters {
   std::string base_frame, odom_frame;
   bool compressed;
   int queue_size;  // messages
+  double drain_s;  // s
 
   NodeletParameters();
 };

@@ -79,7 +79,7 @@ class LocalizationStage {
 LocalizationStage::LocalizationStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters_, parameters_.registration) = urban_nav_ros::readParameters(
       node.nh(), node.privateHandle(), nodeletTable(), table(), urban_nav_registration::table());
-  node.setQueueSize(nodelet_.queue_size);
+  node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
   openMap();
   inputs_ = std::make_unique<Inputs>(urban_nav_ros::toStereoOptions(nodelet_, node.nh()), *localiser_,
                                      Inputs::Listener{[this](const std::string& fault) { node_.logError(fault); },

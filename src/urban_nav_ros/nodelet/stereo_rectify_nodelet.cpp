@@ -49,7 +49,7 @@ StereoRectifyStage::StereoRectifyStage(Node& node) {
                                       "remapped to " + node.nh().resolveName(output) + ", which is published here",
                                       "the topic of the camera");
   const auto parameters = readParameters(node.privateHandle(), stereoRectifyTable());
-  node.setQueueSize(parameters.queue_size);
+  node.setQueueSize(parameters.queue_size, parameters.drain_s);
   left_ = node.nh().advertise<sensor_msgs::Image>(topics::kLeftRectified,
                                                   static_cast<std::uint32_t>(parameters.queue_size));
   right_ = node.nh().advertise<sensor_msgs::Image>(topics::kRightRectified,

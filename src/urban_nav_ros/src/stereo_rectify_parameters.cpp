@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "urban_nav_live/drain_row.hpp"
+
 namespace urban_nav_ros {
 
 using urban_nav_core::Table;
@@ -24,6 +26,7 @@ const Table<StereoRectifyParameters>& stereoRectifyTable() {
            "Whether the image topics are sensor_msgs/CompressedImage.", "docs/architecture.md"},
           {"queue_size", &P::queue_size, "messages", 200, 2, 1000000, {},
            "Largest number of waiting messages; beyond it the oldest is dropped and counted.", "docs/architecture.md"},
+          urban_nav_live::drainRow(&P::drain_s),
       });
   return rows;
 }

@@ -7,6 +7,7 @@
 
 #include "urban_nav_core/parameters/table.hpp"
 #include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_live/drain_row.hpp"
 
 namespace urban_nav_live {
 
@@ -96,15 +97,7 @@ std::vector<urban_nav_core::Row<P>> withStereoInput(std::vector<urban_nav_core::
        "left camera, with a warning, until the pose arrives and a new session begins.",
        "REP-103",
        {"tf_wait"}},
-      {"drain_s",
-       &P::drain_s,
-       "s",
-       5.0,
-       0.0,
-       3600.0,
-       {},
-       "Time after an interrupt for the stage to process and publish pending inputs; dropped ones are logged.",
-       "docs/architecture.md"}};
+      drainRow<P>(&P::drain_s)};
   own.insert(own.end(), rows.begin(), rows.end());
   return own;
 }

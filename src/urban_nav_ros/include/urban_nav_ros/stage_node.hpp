@@ -144,7 +144,7 @@ class StageNodeWith : public StageNode {
   using StageNode::StageNode;
 
   /// Sets the capacity of the worker's queue, inputs, and the time, s, within which an interrupted stage must end.
-  void setQueueSize(int inputs, double drain_s = 5.0) {
+  void setQueueSize(int inputs, double drain_s) {
     loop_.setCapacity(static_cast<std::size_t>(inputs));
     setDrainTime(drain_s);
   }

@@ -33,7 +33,7 @@ namespace urban_nav_ros {
 ///       // Reads parameters (Errors are fatal), subscribes, advertises.
 ///       explicit FrameCounter(Node& node) : node_(node) {
 ///         std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
-///         node.setQueueSize(nodelet_.queue_size);
+///         node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
 ///         count_ = node.nh().advertise<std_msgs::UInt64>("frame_counter/count", 10);
 ///         node.subscribeInput<sensor_msgs::Image>(
 ///             topics::left_image, {1.0}, [](const auto& image) { return toStampNs(image->header.stamp); });

@@ -12,6 +12,7 @@ struct StereoRectifyParameters {
   std::string image_type;  // auto, raw, rectified
   bool compressed;
   int queue_size;  // messages
+  double drain_s;  // s
 
   StereoRectifyParameters();
 };

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "urban_nav_core/types/frames.hpp"
+#include "urban_nav_live/drain_row.hpp"
 
 namespace urban_nav_trust {
 
@@ -22,6 +23,7 @@ const Table<NodeletParameters>& nodeletTable() {
            "Frame of the positions whose probabilities are published.", "REP-105"},
           {"queue_size", &P::queue_size, "messages", std::int64_t{200}, std::int64_t{2}, std::int64_t{1000000}, {},
            "Largest number of waiting inputs; beyond it the oldest is dropped and counted.", "docs/architecture.md"},
+          urban_nav_live::drainRow(&P::drain_s),
       });
   return rows;
 }

@@ -12,6 +12,7 @@ namespace urban_nav_trust {
 struct NodeletParameters {
   std::string map_frame;
   int queue_size;  // messages
+  double drain_s;  // s
 
   NodeletParameters();
 };
