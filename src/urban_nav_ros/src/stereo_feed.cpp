@@ -39,7 +39,7 @@ StereoFeed::StereoFeed(const Options& options, std::shared_ptr<const StereoCalib
       motion_(options.motion),
       first_image_stream_(motionStreams(options.motion)),
       queue_(first_image_stream_ + 2, options.max_lateness, options.delivery,
-             options.motion.is_required ? 0 : first_image_stream_, first_image_stream_),
+             options.motion.is_required ? 0 : first_image_stream_, first_image_stream_, options.longest_wait),
       assembler_(options.pairing_tolerance),
       pairing_tolerance_(options.pairing_tolerance) {}
 
@@ -136,6 +136,11 @@ std::optional<DecodedPair> StereoFeed::take() {
 
 const urban_nav_core::TimeOrderedQueueCounts& StereoFeed::counts(Side side) const {
   return queue_.counts(toStream(side));
+}
+
+urban_nav_core::TimeOrderedQueueCounts StereoFeed::counts(urban_nav_core::MotionSource source) const {
+  const bool is_selected = source == urban_nav_core::MotionSource::Wheels ? motion_.wheels : motion_.gyroscope;
+  return is_selected ? queue_.counts(toStream(source)) : urban_nav_core::TimeOrderedQueueCounts();
 }
 
 std::int64_t StereoFeed::missing(Side side) const {

@@ -33,6 +33,7 @@ void StereoSessions::Counts::addTo(urban_nav_live::StageReport& report) const {
   report.add("dropped: before a session", dropped);
   report.add("dropped: too late", late);
   report.add("dropped: duplicate", duplicate);
+  report.add("dropped: IMU or wheels too late", motion_late);
   report.add("left images missing", left_missing);
   report.add("right images missing", right_missing);
   report.add("images damaged", damaged);
@@ -46,6 +47,10 @@ void StereoSessions::Counts::addTo(urban_nav_live::StageReport& report) const {
                                  "at different times: set input/right_delay, which stereo_rectify reads, or a wider "
                                  "sync_tolerance (`urban_nav doctor` on a recording states which)"});
   report.fault_counts.push_back({"images arrived too late", late, 2 * pairs, "raise max_lateness, or lower the load"});
+  report.fault_counts.push_back({"messages of IMU or wheels arrived too late", motion_late, motion_inputs,
+                                 "their stamps are earlier than those of the images: synchronise the clocks, set "
+                                 "input/imu_delay or input/wheels_delay (`urban_nav doctor` on a recording states "
+                                 "which), or raise max_lateness"});
   report.fault_counts.push_back(
       {"images were damaged", damaged, 2 * pairs, "check the encoding, the size in camera_info and the connection"});
 }
@@ -236,6 +241,11 @@ StereoSessions::Counts StereoSessions::counts() const {
   for (const Side side : {Side::Left, Side::Right}) {
     counts.late += feed_->counts(side).late;
     counts.duplicate += feed_->counts(side).duplicate;
+  }
+  for (const auto source : {urban_nav_core::MotionSource::Gyroscope, urban_nav_core::MotionSource::Wheels}) {
+    const urban_nav_core::TimeOrderedQueueCounts motion = feed_->counts(source);
+    counts.motion_late += motion.late;
+    counts.motion_inputs += motion.received;
   }
   counts.left_missing += feed_->missing(Side::Left);
   counts.right_missing += feed_->missing(Side::Right);

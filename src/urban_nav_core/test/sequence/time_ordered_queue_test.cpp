@@ -166,6 +166,32 @@ TEST(TimeOrderedQueue, AClockThatIsAheadMakesNoOtherStreamLate) {
   }
 }
 
+TEST(TimeOrderedQueue, AStreamWithEarlyStampsIsWaitedForUpToTheLongestWait) {
+  const auto dropped = [](StampNs lag) {
+    TestQueue queue(2, 50 * kMillisecond, DeliveryOrder::Shuffled, 1, 1, 1000 * kMillisecond);
+    std::vector<StampNs> stamps;
+    const auto take = [&] {
+      for (const Entry& entry : drain(queue)) stamps.push_back(entry.first);
+    };
+    for (int k = 0; k < 1000; ++k) {
+      const StampNs now = (10'000 + 10 * k) * kMillisecond;
+      queue.put(0, now - lag, 0);
+      if (k % 5 == 0) queue.put(1, now, 0);
+      take();
+    }
+    queue.finish();
+    take();
+    EXPECT_TRUE(std::is_sorted(stamps.begin(), stamps.end()));
+    EXPECT_EQ(queue.counts(1).late, 0);
+    EXPECT_EQ(stamps.size() + static_cast<std::size_t>(queue.counts(0).late), 1200U);
+    return queue.counts(0).late;
+  };
+  EXPECT_EQ(dropped(0), 0);
+  EXPECT_EQ(dropped(300 * kMillisecond), 0);
+  EXPECT_EQ(dropped(900 * kMillisecond), 0);
+  EXPECT_GT(dropped(2000 * kMillisecond), 900) << "dropped, and counted";
+}
+
 TEST(TimeOrderedQueue, WhatFollowsDoesNotPileUpBeforeTheFirstOfTheOthers) {
   TestQueue queue(2, 50 * kMillisecond, DeliveryOrder::OrderedStreams, 1, 1);
   for (int k = 0; k < 5000; ++k) {
@@ -173,7 +199,8 @@ TEST(TimeOrderedQueue, WhatFollowsDoesNotPileUpBeforeTheFirstOfTheOthers) {
     EXPECT_TRUE(drain(queue).empty());
   }
   EXPECT_LE(queue.waiting(), 1001U);
-  EXPECT_EQ(queue.counts(0).late + static_cast<std::int64_t>(queue.waiting()), 5000);
+  EXPECT_EQ(queue.counts(0).early + static_cast<std::int64_t>(queue.waiting()), 5000);
+  EXPECT_EQ(queue.counts(0).late, 0);
   queue.put(1, 49'950 * kMillisecond, 0);
   queue.put(1, 50'000 * kMillisecond, 0);
   EXPECT_FALSE(drain(queue).empty());

@@ -14,7 +14,8 @@ constexpr urban_nav_core::StampNs kClockStep = 1'000'000'000;  // ns
 
 }  // namespace
 
-std::vector<std::string> droppedImages(const urban_nav_ros::StereoFeed& feed, const BagTopics& topics) {
+std::vector<std::string> droppedMessages(const urban_nav_ros::StereoFeed& feed, const BagTopics& topics) {
+  using urban_nav_core::MotionSource;
   using urban_nav_ros::Side;
   std::vector<std::string> sentences;
   for (const auto& [side, role] : {std::pair(Side::Left, Role::Left), std::pair(Side::Right, Role::Right)}) {
@@ -26,6 +27,16 @@ std::vector<std::string> droppedImages(const urban_nav_ros::StereoFeed& feed, co
     if (counts.duplicate > 0)
       sentences.push_back(topic + ": " + std::to_string(counts.duplicate) +
                           " images have the stamp of another and were dropped");
+  }
+  for (const auto& [source, role] :
+       {std::pair(MotionSource::Gyroscope, Role::Imu), std::pair(MotionSource::Wheels, Role::Wheels)}) {
+    const urban_nav_core::TimeOrderedQueueCounts counts = feed.counts(source);
+    const auto topic = topics.find(role);
+    if (counts.late > 0 && topic)
+      sentences.push_back(topic->name + ": " + std::to_string(counts.late) + " of " + std::to_string(counts.received) +
+                          " messages were not used: by their stamps they are more than 1 s before, or 10 s after, the "
+                          "images received with them; synchronise the clocks, or set input." +
+                          (role == Role::Imu ? "imu" : "wheels") + "_delay (`urban_nav doctor` states it)");
   }
   return sentences;
 }

@@ -10,8 +10,8 @@
 
 namespace urban_nav_input {
 
-/// Returns sentences on left and right images dropped because of their stamps.
-std::vector<std::string> droppedImages(const urban_nav_ros::StereoFeed& feed, const BagTopics& topics);
+/// Returns sentences on images and motion inputs dropped because of their stamps.
+std::vector<std::string> droppedMessages(const urban_nav_ros::StereoFeed& feed, const BagTopics& topics);
 
 /// Returns notes for the user on the order and the stamps of a recording.
 std::vector<std::string> describeOrder(const StampSurvey& survey, bool is_sorted);

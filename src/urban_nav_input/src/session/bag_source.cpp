@@ -44,10 +44,12 @@ using urban_nav_ros::StereoFeed;
 
 namespace {
 
-constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns; waiting is free offline
+constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns, of messages of one topic
+constexpr urban_nav_core::StampNs kLongestWait =
+    1'000'000'000;  // ns, for a topic whose stamps are earlier than those of the images
 
 constexpr const char* kBagStateName = "reader of bags";
-constexpr std::uint32_t kBagStateVersion = 9;
+constexpr std::uint32_t kBagStateVersion = 10;
 constexpr urban_nav_core::StampNs kReceiptTolerance =
     25'000'000;                         // ns: images of a pair are received one after another
 constexpr std::size_t kMostSweeps = 4;  // waiting for a pair
@@ -116,7 +118,7 @@ class BagSource : public Source {
   std::shared_ptr<const BagEnd> bagEnd() const override { return bag_end_; }
 
   std::vector<std::string> closingFaults() const override {
-    std::vector<std::string> faults = feed_ ? droppedImages(*feed_, topics_) : std::vector<std::string>();
+    std::vector<std::string> faults = feed_ ? droppedMessages(*feed_, topics_) : std::vector<std::string>();
     for (std::string& fault : panorama_.faults()) faults.push_back(std::move(fault));
     for (std::string& warning : recording_.warnings()) faults.push_back(std::move(warning));
     return faults;
@@ -235,6 +237,7 @@ class BagSource : public Source {
     const std::vector<std::string> leading = info_.has_images ? imageTopics() : sweeps_in_bag_.topics();
     StereoFeed::Options feed;
     feed.max_lateness = kMaxLateness;
+    feed.longest_wait = kLongestWait;
     feed.motion = motion_;
     surveyOrder(leading);
     feed.pairing_tolerance = convention_.tolerance;

@@ -36,6 +36,7 @@ class StereoFeed {
  public:
   struct Options {
     urban_nav_core::StampNs max_lateness = 50'000'000;
+    urban_nav_core::StampNs longest_wait = 0;  ///< for a stream with early stamps (TimeOrderedQueue)
     urban_nav_core::DeliveryOrder delivery = urban_nav_core::DeliveryOrder::Shuffled;
     urban_nav_core::StampNs pairing_tolerance = 5'000'000;
     /// Expected motion inputs: in live order the feed waits for them as for an image, unless they are optional and
@@ -61,6 +62,8 @@ class StereoFeed {
 
   /// Returns the number of images of a side, and of those dropped as late or duplicate.
   const urban_nav_core::TimeOrderedQueueCounts& counts(Side side) const;
+  /// Returns the number of motion inputs, and of those dropped as late or duplicate; zero for a sensor not selected.
+  urban_nav_core::TimeOrderedQueueCounts counts(urban_nav_core::MotionSource source) const;
   /// Returns the number of pairs without an image of this side.
   std::int64_t missing(Side side) const;
   /// Returns the number of images rectified by this object.

@@ -72,6 +72,7 @@ class StereoSessions {
   };
   struct Counts {
     std::int64_t late = 0, duplicate = 0;  ///< images dropped by the queue
+    std::int64_t motion_late = 0, motion_inputs = 0;  ///< of IMU and wheels: dropped by the queue, and all
     std::int64_t left_missing = 0, right_missing = 0;
     std::int64_t damaged = 0;    ///< images that cannot be decoded or have a wrong size
     std::int64_t dropped = 0;    ///< images before a session began, and messages from before a backward jump in time

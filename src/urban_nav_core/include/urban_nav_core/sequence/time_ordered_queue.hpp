@@ -18,6 +18,7 @@ struct TimeOrderedQueueCounts {
   std::int64_t received = 0;
   std::int64_t late = 0;       ///< stamp before that of an input already delivered, or on another clock (kMostAhead)
   std::int64_t duplicate = 0;  ///< same stream and stamp as an earlier input
+  std::int64_t early = 0;      ///< of a following stream, more than kMostAhead before the first input of the others
 };
 /// Order in which inputs of several streams arrive.
 enum class DeliveryOrder {
@@ -33,7 +34,9 @@ enum class DeliveryOrder {
 /// every stream has reached its stamp. The latter is for live streams: it minimises latency, but drops a message that
 /// arrives after a later one of its own stream. Streams may be optional: a stream without input while another had
 /// kPatience inputs, or for a second of stamps, is not waited for. Streams may be declared as following the others:
-/// inputs of other streams are never late because of them, however far their clock is ahead. Not thread-safe.
+/// inputs of other streams are never late because of them, however far their clock is ahead. `longest_wait`: in either
+/// order, an input also waits for streams that have not reached its stamp, up to this lateness, so that a stream whose
+/// clock is late is not dropped. Not thread-safe.
 template <typename Item>
 class TimeOrderedQueue {
  public:
@@ -50,12 +53,13 @@ class TimeOrderedQueue {
 
   /// `optional`: number of first streams that are optional. `following`: number of those that follow the others.
   TimeOrderedQueue(int streams, StampNs max_lateness, DeliveryOrder delivery = DeliveryOrder::Shuffled,
-                   int optional = 0, int following = 0)
+                   int optional = 0, int following = 0, StampNs longest_wait = 0)
       : counts_(static_cast<std::size_t>(streams)),
         optional_(static_cast<std::size_t>(optional)),
         following_(static_cast<std::size_t>(following)),
         reached_(counts_.size()),
         max_lateness_(max_lateness),
+        longest_wait_(std::max(max_lateness, longest_wait)),
         delivery_(delivery) {}
 
   /// Returns false if the input is late or a duplicate, and drops it.
@@ -128,7 +132,8 @@ class TimeOrderedQueue {
                       "a stream is unknown");
       archive.require(i == 0 || findPlace(waiting_[i - 1]) < findPlace(entry), "inputs are out of order");
     }
-    for (TimeOrderedQueueCounts& counts : counts_) archive(counts.received, counts.late, counts.duplicate);
+    for (TimeOrderedQueueCounts& counts : counts_)
+      archive(counts.received, counts.late, counts.duplicate, counts.early);
     for (std::optional<StampNs>& reached : reached_) archive(reached);
     archive(newest_, handed_on_, finished_);
     archive.require(waiting_.empty() || newest_.has_value() || following_ > 0, "no input yet");
@@ -139,8 +144,12 @@ class TimeOrderedQueue {
   static Place findPlace(const Entry& entry) { return {entry.stamp, entry.stream}; }
 
   bool mayLeave(const Entry& entry) const {
-    if (finished_ || (newest_ && *newest_ - entry.stamp >= max_lateness_)) return true;
-    if (delivery_ == DeliveryOrder::Shuffled) return false;
+    if (finished_ || (newest_ && *newest_ - entry.stamp >= longest_wait_)) return true;
+    const bool is_late = newest_ && *newest_ - entry.stamp >= max_lateness_;
+    return (is_late || delivery_ == DeliveryOrder::OrderedStreams) && isReachedByAll(entry);
+  }
+
+  bool isReachedByAll(const Entry& entry) const {
     for (std::size_t stream = 0; stream < reached_.size(); ++stream) {
       const std::optional<StampNs>& reached = reached_[stream];
       if ((!reached || *reached < entry.stamp) && !(stream < optional_ && isSilent(stream))) return false;
@@ -151,7 +160,7 @@ class TimeOrderedQueue {
   /// Drops inputs of following streams that wait for the first one of the others.
   void dropBefore(StampNs stamp) {
     while (!waiting_.empty() && waiting_.front().stamp < stamp) {
-      ++counts_[static_cast<std::size_t>(waiting_.front().stream)].late;
+      ++counts_[static_cast<std::size_t>(waiting_.front().stream)].early;
       waiting_.erase(waiting_.begin());
     }
   }
@@ -168,7 +177,7 @@ class TimeOrderedQueue {
   std::vector<std::optional<StampNs>> reached_;
   std::optional<StampNs> newest_;
   std::optional<Place> handed_on_;
-  StampNs max_lateness_;
+  StampNs max_lateness_, longest_wait_;
   DeliveryOrder delivery_;
   bool finished_ = false;
 };
