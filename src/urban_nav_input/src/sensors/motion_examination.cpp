@@ -7,6 +7,7 @@
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/trajectory/statistics.hpp"
+#include "urban_nav_input/sensors/turn_delay.hpp"
 
 namespace urban_nav_input {
 
@@ -27,6 +28,7 @@ constexpr StampNs kTurnWindow = 2'000'000'000;      // ns, of intervals that com
 constexpr double kDegreesPerRadian = 180.0 / M_PI;  // rates in deg/s over rates in rad/s
 constexpr double kFewMetres = 2.0;                  // m: distance by speeds while poses do not move
 constexpr std::size_t kMostPoses = 2'000'000;
+constexpr double kSameDelay = 0.02;  // s: difference of two sensors with one clock
 
 double wrap(double angle) { return std::remainder(angle, 2.0 * M_PI); }
 
@@ -201,6 +203,38 @@ std::optional<Finding> MotionExamination::turnFinding(const Ratios& ratios, bool
                  "recordings let the driver publish axes of ROS (REP-103)"};
 }
 
+std::optional<Finding> MotionExamination::delayFinding(const std::vector<SeenMotion>& seen, const std::string& wheels,
+                                                       const std::string& imu,
+                                                       const urban_nav_ros::SensorCorrections& present) const {
+  std::vector<double> by_wheels;
+  for (const std::array<double, 2>& travelled : wheels_) by_wheels.push_back(travelled[1]);
+  const std::optional<double> imu_delay = findTurnDelay(gyroscope_stamps_, gyroscope_, seen),
+                              wheels_delay = findTurnDelay(wheel_stamps_, by_wheels, seen);
+  if (!imu_delay && !wheels_delay) return std::nullopt;
+  const bool both = imu_delay && wheels_delay && std::abs(*imu_delay - *wheels_delay) < kSameDelay;
+  const double delay = imu_delay ? *imu_delay : *wheels_delay;
+  const std::string late = formatNumber(std::abs(delay), 3) + " s ", by = " than those of ";
+  Finding finding{FindingKind::Stamps, "", "synchronise the clocks (chrony, PTP) while recording"};
+  if (both)
+    finding.text = "the stamps of the images are " + late + (delay < 0.0 ? "later" : "earlier") + by + imu + " and " +
+                   wheels + ", by the turns that all measure: images are stamped on receipt, or their clock is wrong";
+  else
+    finding.text = (imu_delay ? imu : wheels) + ": its stamps are " + late + (delay < 0.0 ? "earlier" : "later") + by +
+                   "the images, by the turns that both measure: the clock of its computer or device is wrong";
+  const auto set = [&](const char* name, double now) {
+    finding.options.emplace_back("--set");
+    finding.options.push_back("input." + std::string(name) + "=" +
+                              urban_nav_core::printNumber(std::round(1e3 * (1e-9 * now + delay))));
+  };
+  if (imu_delay) set("imu_delay", static_cast<double>(present.imu_delay));
+  if (both || !imu_delay) set("wheels_delay", static_cast<double>(present.wheels_delay));
+  std::string options;
+  for (const std::string& option : finding.options) options += (options.empty() ? "" : " ") + option;
+  finding.remedy = options + (both ? ", and the same for lasers and GPS if they share this clock" : "") +
+                   "; for later recordings, " + finding.remedy;
+  return finding;
+}
+
 std::vector<Finding> MotionExamination::findings(const std::vector<SeenMotion>& seen, const std::string& wheels,
                                                  const std::string& imu,
                                                  const urban_nav_ros::SensorCorrections& present) const {
@@ -216,6 +250,7 @@ std::vector<Finding> MotionExamination::findings(const std::vector<SeenMotion>& 
                             "positive clockwise",
                         "let the driver of the wheels publish rotations to the left as positive (REP-103)"});
   if (auto finding = turnFinding(ratios, are_turns_sound, imu, present)) findings.push_back(std::move(*finding));
+  if (auto finding = delayFinding(seen, wheels, imu, present)) findings.push_back(std::move(*finding));
   return findings;
 }
 

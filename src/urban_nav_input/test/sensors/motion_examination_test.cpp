@@ -53,6 +53,49 @@ TEST(MotionExamination, FindsNothingWhereSensorsAgree) {
   EXPECT_TRUE(examine(1.1, 1.0, 0.95).empty()) << "worn tyres";
 }
 
+/// Findings of a minute of a robot that turns irregularly, with stamps that are late by these times, s.
+std::vector<Finding> withDelays(double imu_late, double wheels_late, double bias = 0.05) {
+  const auto turned = [](double t) { return 0.3 * std::sin(0.7 * t) + 0.2 * std::sin(1.9 * t + 1.0); };
+  const auto rate = [](double t) { return 0.21 * std::cos(0.7 * t) + 0.38 * std::cos(1.9 * t + 1.0); };
+  MotionExamination examination;
+  const auto toStamp = [](double t) { return kFirstSeen + static_cast<StampNs>(std::llround(1e9 * t)); };
+  for (int i = 0; i < 6000; ++i) examination.addGyroscope(toStamp(0.01 * i + imu_late), rate(0.01 * i) + bias);
+  for (int i = 0; i < 1800; ++i) {
+    const double t = i / 30.0;
+    examination.addWheels(toStamp(t + wheels_late), {{kSpeed * t, 0.0, turned(t)}}, kSpeed);
+  }
+  std::vector<SeenMotion> seen;
+  for (int second = 2; second < 57; ++second) {
+    const double t = second + 0.003, noise = 2e-3 * std::sin(37.0 * second);
+    seen.push_back({toStamp(t), toStamp(t + 0.2),
+                    Pose(Quaterniond(Eigen::AngleAxisd(turned(t + 0.2) - turned(t) + noise, Vector3d::UnitZ())),
+                         Vector3d(0.2 * kSpeed, 0.0, 0.0))});
+  }
+  return examination.findings(seen, "/wheels", "/imu", {});
+}
+
+TEST(MotionExamination, StatesWhoseStampsAreLate) {
+  EXPECT_TRUE(withDelays(0.0, 0.0).empty());
+  EXPECT_TRUE(withDelays(0.04, -0.04).empty()) << "as long as a transfer takes";
+  const auto expectDelay = [](const Finding& finding, std::size_t option, const std::string& name, double ms) {
+    ASSERT_GT(finding.options.size(), option);
+    ASSERT_EQ(finding.options[option].find("input." + name + "="), 0U) << finding.options[option];
+    EXPECT_NEAR(std::stod(finding.options[option].substr(name.size() + 7)), ms, 10.0) << finding.text;
+  };
+  const std::vector<Finding> imu = withDelays(0.2, 0.0);
+  ASSERT_EQ(imu.size(), 1U);
+  EXPECT_EQ(imu[0].kind, FindingKind::Stamps);
+  expectDelay(imu[0], 1, "imu_delay", 200.0);
+  EXPECT_EQ(imu[0].options.size(), 2U);
+  expectDelay(withDelays(0.0, 0.1).at(0), 1, "wheels_delay", 100.0);
+  const std::vector<Finding> images = withDelays(-0.1, -0.1);
+  ASSERT_EQ(images.size(), 1U);
+  EXPECT_EQ(images[0].text.find("the stamps of the images are 0."), 0U) << images[0].text;
+  EXPECT_NE(images[0].text.find("s later"), std::string::npos) << images[0].text;
+  expectDelay(images[0], 1, "imu_delay", -100.0);
+  expectDelay(images[0], 3, "wheels_delay", -100.0);
+}
+
 TEST(MotionExamination, StatesScaleAndSignOfWheels) {
   const std::vector<Finding> millimetres = examine(1000.0, 1.0, 1.0);
   ASSERT_EQ(millimetres.size(), 1U);

@@ -16,7 +16,7 @@
 namespace urban_nav_input {
 
 /// Compares the motion measured by wheels and a gyroscope with each other and with stereo: scale and sign of distances
-/// and rotations. Needs sufficient motion for a ratio. Not thread-safe.
+/// and rotations, and the delay of their stamps. Needs sufficient motion for a ratio. Not thread-safe.
 class MotionExamination {
  public:
   /// Adds the pose by wheels, m and rad in their odometry frame, and the forward speed, m/s.
@@ -43,6 +43,8 @@ class MotionExamination {
                                          const urban_nav_ros::SensorCorrections& present) const;
   static std::optional<Finding> turnFinding(const Ratios& ratios, bool are_wheels_sound, const std::string& imu,
                                             const urban_nav_ros::SensorCorrections& present);
+  std::optional<Finding> delayFinding(const std::vector<SeenMotion>& seen, const std::string& wheels,
+                                      const std::string& imu, const urban_nav_ros::SensorCorrections& present) const;
 
   std::vector<urban_nav_core::StampNs> wheel_stamps_, gyroscope_stamps_;
   std::vector<std::array<double, 2>> wheels_;  // signed distance, m; heading without jumps, rad; both since the start
