@@ -31,6 +31,7 @@ NODELET_LINES = {
     "segway_drivers": 1400,
     "src/urban_nav_localization": 400,
     "src/urban_nav_sim": 850,
+    "swf_vo": 350,
 }
 
 

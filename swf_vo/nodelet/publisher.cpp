@@ -91,16 +91,20 @@ void Publisher::publishFrame(const Frame& frame, double process_ms) {
   message.landmarks = static_cast<std::uint32_t>(figures.landmarks);
   message.landmarks_in_prior = static_cast<std::uint32_t>(figures.landmarks_in_prior);
   const MotionComparison& compared = frame.motion.newest;
+  Eigen::Map<Eigen::Vector3d>(message.turn.data()) = compared.turn;
   Eigen::Map<Eigen::Vector3d>(message.turn_error.data()) = compared.turn_error;
   Eigen::Map<Eigen::Vector3d>(message.right_turn.data()) = figures.right_turn_rad;
   std::tie(message.turn_sigma, message.forward, message.sideways, message.forward_error, message.forward_sigma,
-           message.imu_delay, message.imu_delay_sigma, message.track_length_mean, message.reprojection_px,
-           message.disparity_offset_px, message.disparity_offset_sigma_px, message.disparity_step_px,
-           message.disparity_step_sigma_px) =
+           message.imu_delay, message.imu_delay_sigma, message.wheel_delay, message.wheel_delay_sigma,
+           message.track_length_mean, message.reprojection_px, message.disparity_offset_px,
+           message.disparity_offset_sigma_px, message.disparity_step_px, message.disparity_step_sigma_px) =
       std::tie(compared.turn_sigma, compared.forward, compared.sideways, compared.forward_error, compared.forward_sigma,
-               frame.motion.imu_offset_s, frame.motion.imu_offset_sigma_s, figures.track_length_mean,
-               figures.reprojection_px, figures.disparity_offset_px, figures.disparity_offset_sigma_px,
-               figures.disparity_step.px, figures.disparity_step.sigma_px);
+               frame.motion.imu_offset_s, frame.motion.imu_offset_sigma_s, frame.motion.wheel_offset_s,
+               frame.motion.wheel_offset_sigma_s, figures.track_length_mean, figures.reprojection_px,
+               figures.disparity_offset_px, figures.disparity_offset_sigma_px, figures.disparity_step.px,
+               figures.disparity_step.sigma_px);
+  message.gyroscope_fault = currentFault(frame.motion, false);
+  message.wheels_fault = currentFault(frame.motion, true);
   message.process_ms = process_ms;
   message.latency_ms = (ros::Time::now() - message.header.stamp).toSec() * 1e3;
   frame_.publish(message);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "swf_vo/frame.hpp"
 
+#include <algorithm>
+
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 
@@ -24,6 +26,13 @@ std::string describe(const MotionSensorFault& fault, urban_nav_core::StampNs beg
   };
   return std::string(fault.is_wheels ? "wheels" : "IMU: gyroscope") + " not used from " + second(fault.since) +
          (fault.until > 0 ? " s to " + second(fault.until) + " s" : " s on") + ": " + fault.sentence;
+}
+
+std::string currentFault(const MotionEstimates& motion, bool is_wheels) {
+  if (is_wheels ? !motion.wheels_left_out : !motion.gyroscope_left_out) return "";
+  const auto fault = std::find_if(motion.faults.rbegin(), motion.faults.rend(),
+                                  [&](const MotionSensorFault& each) { return each.is_wheels == is_wheels; });
+  return fault == motion.faults.rend() ? "" : fault->sentence;
 }
 
 void archive(Archive& archive, MotionSensorFault& fault) {

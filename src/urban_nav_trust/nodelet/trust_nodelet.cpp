@@ -37,6 +37,7 @@ std::optional<LiveFrame> toFrame(const urban_nav_msgs::VoStatistics& message) {
   frame.compared.disparity_step_px = message.disparity_step_px;
   frame.compared.disparity_step_sigma_px = message.disparity_step_sigma_px;
   frame.compared.right_turn = Eigen::Vector3d(message.right_turn.data());
+  frame.compared.turn = Eigen::Vector3d(message.turn.data());
   frame.compared.turn_error = Eigen::Vector3d(message.turn_error.data());
   frame.compared.turn_sigma = message.turn_sigma;
   frame.compared.forward = message.forward;
@@ -45,6 +46,10 @@ std::optional<LiveFrame> toFrame(const urban_nav_msgs::VoStatistics& message) {
   frame.compared.forward_sigma = message.forward_sigma;
   frame.compared.imu_delay = message.imu_delay;
   frame.compared.imu_delay_sigma = message.imu_delay_sigma;
+  frame.compared.wheel_delay = message.wheel_delay;
+  frame.compared.wheel_delay_sigma = message.wheel_delay_sigma;
+  frame.compared.gyroscope_fault = message.gyroscope_fault;
+  frame.compared.wheels_fault = message.wheels_fault;
   return frame;
 }
 
@@ -73,7 +78,7 @@ class TrustStage {
 
   explicit TrustStage(Node& node) : node_(node) {
     std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
-    node.setQueueSize(nodelet_.queue_size);
+    node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
     publisher_ = node.nh().advertise<urban_nav_msgs::Trust>(topics::kTrustState, 10, true);
     trust_ = std::make_unique<LiveTrust>(parameters_, [this](const LiveEstimate& estimate) {
       publisher_.publish(toMessage(estimate, parameters_, nodelet_.map_frame));

@@ -77,11 +77,12 @@ std::string describe(const MotionSensorFault& fault, urban_nav_core::StampNs beg
 /// Newest settled step by images compared with motion sensors, after the estimated corrections. A sigma of 0: not
 /// compared.
 struct MotionComparison {
+  urban_nav_core::Vector3d turn = urban_nav_core::Vector3d::Zero();        ///< by images, rad
   urban_nav_core::Vector3d turn_error = urban_nav_core::Vector3d::Zero();  ///< images minus gyroscope, rad
   double turn_sigma = 0.0;                                                 ///< each axis, rad
   double forward = 0.0, sideways = 0.0;                                    ///< motion by images, m in base_link
-  double forward_error = 0.0;                                              ///< images minus wheels along x, m
-  double forward_sigma = 0.0;                                              ///< m
+  double forward_error = 0.0;  ///< images minus wheels as they state it (without the estimated scale), along x, m
+  double forward_sigma = 0.0;  ///< m
 };
 
 /// Motion sensors and their calibration estimated from images. Until the first measurement, estimates and standard
@@ -98,6 +99,9 @@ struct MotionEstimates {
   MotionComparison newest;
   std::vector<MotionSensorFault> faults;  ///< ordered by `since`
 };
+
+/// Returns the sentence of the latest fault for which the gyroscope or the wheels are excluded; empty: not excluded.
+std::string currentFault(const MotionEstimates& motion, bool is_wheels);
 
 /// Measured disparities minus those predicted from earlier frames; zero while the cameras keep their mounting.
 struct DisparityStep {

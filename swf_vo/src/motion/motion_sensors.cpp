@@ -203,14 +203,15 @@ void MotionSensors::learnStep(const Settled& settled) {
   const std::optional<WheelStep> wheels = compareWheels(settled, images, moved);
   calibration_.update(images, follows_, gyroscope, wheels);
   if (turned) {
+    estimates_.newest.turn = images.rotation;
     estimates_.newest.turn_error = turned->error;
     estimates_.newest.turn_sigma = std::sqrt(turned->variance / 3.0);
   }
   if (moved) {
     estimates_.newest.forward = images.forward;
     estimates_.newest.sideways = step.T_from_to.t().y();
-    estimates_.newest.forward_error = moved->error.x();
-    estimates_.newest.forward_sigma = std::sqrt(moved->variance);
+    estimates_.newest.forward_error = moved->stated_error;
+    estimates_.newest.forward_sigma = std::sqrt(moved->stated_variance);
   }
   if (turned) gyroscope_.agreement.add(turned->step, turned->error, turned->variance);
   else gyroscope_.agreement.interrupt();
@@ -298,6 +299,9 @@ std::optional<WheelStep> MotionSensors::compareWheels(const Settled& settled, co
   checked.step = {step.to, images.seconds, {images.forward, 0.0, 0.0}, {stated.t().x(), 0.0, 0.0}};
   checked.error = {result.forward.error, 0.0, 0.0};
   checked.variance = result.forward.variance + images.forward_drift + 2.0 * images.forward_end + J.dot(P * J);
+  checked.stated_error = images.forward - corrected.t().x();
+  checked.stated_variance = speed_scale * speed_scale * result.forward.variance + images.forward_drift +
+                            2.0 * images.forward_end + change[0] * change[0] * P(1, 1);
   compared = checked;
   return result;
 }

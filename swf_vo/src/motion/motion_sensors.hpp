@@ -62,6 +62,7 @@ class MotionSensors {
     ComparedStep step;
     urban_nav_core::Vector3d error = urban_nav_core::Vector3d::Zero();
     double variance = 0.0;
+    double stated_error = 0.0, stated_variance = 0.0;  // of wheels without the estimated scale: m, m^2
   };
 
   std::optional<Reckoned> reckonBy(bool gyroscope, bool wheels, urban_nav_core::StampNs from,

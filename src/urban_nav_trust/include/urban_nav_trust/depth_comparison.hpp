@@ -17,6 +17,9 @@ struct SurfaceMatch {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  ///< unit normal of the surface
   double excess = 0.0;                                ///< m along the normal from the surface to the stereo point
   double sigma = 0.0;                                 ///< m, of the stereo point along the normal, as estimated
+  int laser = -1;                                     ///< number of the laser that measured the surface; -1: unknown
+  /// Displacement of the surface along its normal, m per rad, if this laser turns about the axis of its scan plane.
+  double lever = 0.0;
 };
 
 /// Matches of the stereo points of one keyframe.

@@ -6,6 +6,7 @@
 #include "urban_nav_core/sequence/time_jump.hpp"
 #include "urban_nav_trust/closure_comparison.hpp"
 #include "urban_nav_trust/depth_comparison.hpp"
+#include "urban_nav_trust/laser_mounting.hpp"
 #include "urban_nav_trust/session_comparisons.hpp"
 
 namespace urban_nav_trust {
@@ -17,9 +18,9 @@ namespace {
 constexpr urban_nav_core::StampNs kPeriod = 1'000'000'000;  // between estimates without a change
 
 /// Tests that require a whole session, or measurements that no live stage compares.
-constexpr const char* kOffline[] = {kDepthScaleTest,   kExchangeTest,     kStereoClosureTest,
-                                    kLaserClosureTest, kGravityTest,      kLidarTest,
-                                    kLidarScaleTest,   "panorama_colour", "gps_position"};
+constexpr const char* kOffline[] = {kDepthScaleTest,   kExchangeTest, kStereoClosureTest, kLaserClosureTest,
+                                    kGravityTest,      kLidarTest,    kLidarScaleTest,    kMountingTest,
+                                    "panorama_colour", "gps_position"};
 
 bool isNews(const LiveEstimate& before, const LiveEstimate& now) {
   return before.frame.state != now.frame.state || before.frame.tests != now.frame.tests ||

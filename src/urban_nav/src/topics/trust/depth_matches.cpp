@@ -17,6 +17,7 @@
 
 namespace urban_nav {
 
+using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_registration::LaserAt;
 using urban_nav_registration::LaserScans;
@@ -36,6 +37,7 @@ constexpr float kSurfaceReach = 0.3F;  // m along the normal
 constexpr float kMostSigma =
     kSurfaceReach / 3.0F;               // m, of a stereo point along the normal; the reach truncates nothing
 constexpr float kOnSurface = 0.15F;     // m
+constexpr double kDrivenThrough = 0.3;  // |x| of the axis of a scan plane that is not horizontal or along the path
 constexpr float kUprightNormal = 0.5F;  // |normal z| below which a surface is a wall
 
 /// Surfaces by grid cubes.
@@ -100,11 +102,45 @@ struct StereoView {
   std::vector<StereoPoint> points;
 };
 
-/// Laser surfaces with the stated mounting, and with left and right exchanged if there are both.
+/// Surfaces of one laser.
+struct SurfacesByLaser {
+  SurfaceGrid surfaces;
+  Pose T_base_laser;
+};
+
+/// Laser surfaces with the stated mounting, and of all lasers with left and right exchanged if there are both.
 struct LaserSurfaces {
-  SurfaceGrid stated;
+  std::vector<SurfacesByLaser> stated;
   std::optional<SurfaceGrid> exchanged;
 };
+
+/// A surface near a point, and the number of the laser that measured it.
+struct FoundSurface {
+  const Surfel* surfel = nullptr;
+  int laser = -1;
+};
+
+FoundSurface findNearest(const std::vector<SurfacesByLaser>& lasers, const Eigen::Vector3f& p) {
+  FoundSurface nearest;
+  for (std::size_t i = 0; i < lasers.size(); ++i) {
+    const Surfel* surfel = lasers[i].surfaces.find(p);
+    if (surfel == nullptr) continue;
+    if (nearest.surfel == nullptr || (surfel->mean - p).squaredNorm() < (nearest.surfel->mean - p).squaredNorm())
+      nearest = {surfel, static_cast<int>(i)};
+  }
+  return nearest;
+}
+
+/// Returns the displacement of a surface along its normal, m per rad, if the laser turns about the axis a of its scan
+/// plane. A laser whose plane the robot drives through measured a point p where p, displaced along the path, lies in
+/// the plane: by a x d, d from the laser to that point.
+double leverInPlane(const Surfel& surfel, const Pose& T_base_laser) {
+  const Eigen::Vector3d axis = T_base_laser.R().col(2), from_laser = surfel.mean.cast<double>() - T_base_laser.t();
+  const Eigen::Vector3d along =
+      std::abs(axis.x()) > kDrivenThrough ? Eigen::Vector3d(Eigen::Vector3d::UnitX() / axis.x()) : axis;
+  const Eigen::Vector3d in_plane = from_laser - axis.dot(from_laser) * along;
+  return surfel.normal.cast<double>().dot(axis.cross(in_plane));
+}
 
 KeyframeMatches match(const StereoView& view, const LaserSurfaces& surfaces) {
   KeyframeMatches result;
@@ -123,10 +159,13 @@ KeyframeMatches match(const StereoView& view, const LaserSurfaces& surfaces) {
       return surfel != nullptr && sigmaAcross(surfel) < kMostSigma && std::abs(surfel->normal.z()) < kUprightNormal &&
              std::abs(offSurface(surfel, p)) < kOnSurface;
     };
-    const Surfel* surfel = surfaces.stated.find(p);
+    const FoundSurface found = findNearest(surfaces.stated, p);
+    const Surfel* surfel = found.surfel;
     if (surfel != nullptr && sigmaAcross(surfel) < kMostSigma && std::abs(offSurface(surfel, p)) < kSurfaceReach)
-      result.matches.push_back({p.cast<double>() - view.camera, surfel->normal.cast<double>(),
-                                static_cast<double>(offSurface(surfel, p)), static_cast<double>(sigmaAcross(surfel))});
+      result.matches.push_back(
+          {p.cast<double>() - view.camera, surfel->normal.cast<double>(), static_cast<double>(offSurface(surfel, p)),
+           static_cast<double>(sigmaAcross(surfel)), found.laser,
+           leverInPlane(*surfel, surfaces.stated[static_cast<std::size_t>(found.laser)].T_base_laser)});
     if (!surfaces.exchanged) continue;
     const bool as_stated = isOnWall(surfel), as_exchanged = isOnWall(surfaces.exchanged->find(p));
     result.points += as_stated || as_exchanged ? 1 : 0;
@@ -200,16 +239,28 @@ std::vector<KeyframeMatches> matchDepths(urban_nav_store::Store& store, const ur
   const std::optional<std::vector<LaserAt>> other_sides = exchangeSides(lasers);
   std::vector<LaserScans> other_scans;
   if (other_sides) other_scans = urban_nav_registration::storedScans(store.scans(), session, *other_sides);
+  const auto statedSurfaces = [&](StampNs stamp) {
+    std::vector<SurfacesByLaser> stated;
+    for (std::size_t i = 0; i < scans.size(); ++i)
+      stated.push_back({makeGrid(chain, stamp, {scans[i]}), lasers[i].T_base_laser});
+    return stated;
+  };
   for (const StereoView& view : denseViews(store, session))
-    keyframes.push_back(match(view, {makeGrid(chain, view.stamp, scans), std::nullopt}));
+    keyframes.push_back(match(view, {statedSurfaces(view.stamp), std::nullopt}));
   for (const StereoView& view : cornerViews(store, session, odometry)) {
-    LaserSurfaces surfaces{makeGrid(chain, view.stamp, scans), std::nullopt};
+    LaserSurfaces surfaces{statedSurfaces(view.stamp), std::nullopt};
     if (other_sides) surfaces.exchanged = makeGrid(chain, view.stamp, other_scans);
     keyframes.push_back(match(view, surfaces));
   }
   std::sort(keyframes.begin(), keyframes.end(),
             [](const KeyframeMatches& a, const KeyframeMatches& b) { return a.stamp < b.stamp; });
   return keyframes;
+}
+
+std::vector<std::string> comparedLasers(urban_nav_store::Store& store, const urban_nav_store::SessionId& session) {
+  std::vector<std::string> names;
+  for (const LaserAt& laser : urban_nav_registration::storedLasers(store, session)) names.push_back(laser.frame);
+  return names;
 }
 
 }  // namespace urban_nav

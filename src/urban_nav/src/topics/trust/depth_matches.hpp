@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "map/session_odometry.hpp"
@@ -15,5 +16,8 @@ namespace urban_nav {
 std::vector<urban_nav_trust::KeyframeMatches> matchDepths(urban_nav_store::Store& store,
                                                           const urban_nav_store::SessionId& session,
                                                           const SessionOdometry& odometry);
+
+/// Returns the names of the lasers of a session, by number as in these matches.
+std::vector<std::string> comparedLasers(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
 
 }  // namespace urban_nav

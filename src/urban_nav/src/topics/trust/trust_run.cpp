@@ -10,6 +10,7 @@
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_test.hpp"
 #include "urban_nav_trust/depth_comparison.hpp"
+#include "urban_nav_trust/laser_mounting.hpp"
 #include "urban_nav_trust/trust_monitor.hpp"
 
 namespace urban_nav {
@@ -60,6 +61,14 @@ TestResults readTests(const urban_nav_store::SessionId& session, urban_nav_store
   return results;
 }
 
+void removeLaser(int laser, std::vector<urban_nav_trust::KeyframeMatches>& keyframes) {
+  for (urban_nav_trust::KeyframeMatches& keyframe : keyframes) {
+    auto& matches = keyframe.matches;
+    matches.erase(std::remove_if(matches.begin(), matches.end(), [&](const auto& each) { return each.laser == laser; }),
+                  matches.end());
+  }
+}
+
 /// Runs the online tests on a session: steps are added when they are final, as on a running robot.
 TestResults monitorSession(const SessionOdometry& run, const urban_nav_trust::Parameters& parameters) {
   urban_nav_trust::TrustMonitor monitor(parameters);
@@ -77,13 +86,18 @@ TestResults testSession(MapContext& context, std::size_t number, const urban_nav
   const SessionOdometry& run = *context.runs()[number];
   TestResults results = monitorSession(run, parameters);
   const double rig_scale = 0.01 * context.options.parameters.get(swf_vo::table()).rig_scale;
-  testDepths(matchDepths(*context.store, context.ids()[number], run), rig_scale, results.tests, results.absent);
+  const urban_nav_store::SessionId id = context.ids()[number];
+  std::vector<urban_nav_trust::KeyframeMatches> matches = matchDepths(*context.store, id, run);
+  for (const int turned : testLaserMountings(matches, comparedLasers(*context.store, id), parameters.false_alarm,
+                                             results.tests, results.absent))
+    removeLaser(turned, matches);
+  testDepths(matches, rig_scale, results.tests, results.absent);
   testClosures(closureDifferences(context.names[number], run, context.closures, context.assessments), results);
-  compareGravity(*context.store, context.ids()[number], run, results);
+  compareGravity(*context.store, id, run, results);
   testLidar(lidarComparison(run), rig_scale, results);
   if (context.trajectories.size() > 1)
     for (ConsistencyTest& test : results.tests) test.sentence = run.input + ": " + test.sentence;
-  storeTests(results, parameters, context.ids()[number], *context.store);
+  storeTests(results, parameters, id, *context.store);
   return results;
 }
 

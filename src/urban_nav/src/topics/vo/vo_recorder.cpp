@@ -28,7 +28,7 @@ constexpr std::size_t kPictures = 8;
 constexpr std::size_t kTail = 6;  // frames of the drawn track of a feature
 
 constexpr const char* kStateName = "visual odometry of a session";
-constexpr std::uint32_t kStateVersion = 1;
+constexpr std::uint32_t kStateVersion = 2;
 
 std::uint8_t greyAt(const ImageView& image, const Eigen::Vector3d& pixel) {
   const int u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
@@ -51,15 +51,23 @@ urban_nav_core::FrameMeasurements toMeasurements(const Frame& frame, urban_nav_c
   measured.disparity_step_px = frame.statistics.disparity_step.px;
   measured.disparity_step_sigma_px = frame.statistics.disparity_step.sigma_px;
   const swf_vo::MotionComparison& compared = frame.motion.newest;
+  measured.turn = compared.turn;
   measured.turn_error = compared.turn_error;
   measured.turn_sigma = compared.turn_sigma;
   measured.forward = compared.forward;
   measured.sideways = compared.sideways;
   measured.forward_error = compared.forward_error;
   measured.forward_sigma = compared.forward_sigma;
-  if (!frame.motion.has_gyroscope) return measured;
-  measured.imu_delay = frame.motion.imu_offset_s;
-  measured.imu_delay_sigma = frame.motion.imu_offset_sigma_s;
+  measured.gyroscope_fault = currentFault(frame.motion, false);
+  measured.wheels_fault = currentFault(frame.motion, true);
+  if (frame.motion.has_gyroscope) {
+    measured.imu_delay = frame.motion.imu_offset_s;
+    measured.imu_delay_sigma = frame.motion.imu_offset_sigma_s;
+  }
+  if (frame.motion.has_wheels) {
+    measured.wheel_delay = frame.motion.wheel_offset_s;
+    measured.wheel_delay_sigma = frame.motion.wheel_offset_sigma_s;
+  }
   return measured;
 }
 
