@@ -46,17 +46,18 @@ struct Mounting {
 
 Mounting assessLaser(const std::string& name, int number, const std::vector<LaserAngle>& angles, double false_alarm) {
   const auto count = static_cast<std::int64_t>(angles.size());
-  Mounting made{name, number, ChangeDetector(false_alarm, count), 1.0, 1.0, 0.0, {}};
+  Mounting mounting{name, number, ChangeDetector(false_alarm, count), 1.0, 1.0, 0.0, {}};
   for (const LaserAngle& each : angles) {
-    made.detector.add({{each.stamp, each.stamp}, each.angle, each.sigma});
-    made.lever += each.lever / static_cast<double>(count);
+    mounting.detector.add({{each.stamp, each.stamp}, each.angle, each.sigma});
+    mounting.lever += each.lever / static_cast<double>(count);
   }
-  made.segments = made.detector.segments();
-  made.p_change = urban_nav_core::changeProbability(made.detector.statistic(), count);
-  const double stated = std::hypot(kLaserTurnPrior, kLaserShiftPrior / made.lever);
-  if (!made.hasChanged())
-    made.p_level = 2.0 * normalTail(std::abs(made.level()) / std::hypot(stated, made.segments.front().sigma));
-  return made;
+  mounting.segments = mounting.detector.segments();
+  mounting.p_change = urban_nav_core::changeProbability(mounting.detector.statistic(), count);
+  const double stated = std::hypot(kLaserTurnPrior, kLaserShiftPrior / mounting.lever);
+  if (!mounting.hasChanged())
+    mounting.p_level =
+        2.0 * normalTail(std::abs(mounting.level()) / std::hypot(stated, mounting.segments.front().sigma));
+  return mounting;
 }
 
 std::string printAngle(const ChangeDetector::Segment& segment) {

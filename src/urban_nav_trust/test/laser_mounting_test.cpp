@@ -24,9 +24,9 @@ struct Corridor {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal(0.0, 1.0);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
-    std::vector<KeyframeMatches> made(keyframes);
+    std::vector<KeyframeMatches> result(keyframes);
     for (std::size_t k = 0; k < keyframes; ++k) {
-      made[k].stamp = static_cast<urban_nav_core::StampNs>(k) * 1'000'000'000;
+      result[k].stamp = static_cast<urban_nav_core::StampNs>(k) * 1'000'000'000;
       const double common = 0.005 * normal(random);
       for (int i = 0; i < 120; ++i) {
         const int laser = i % 2;
@@ -47,14 +47,14 @@ struct Corridor {
         const double by_head = k >= from ? head : 0.0;
         match.excess = normal2.dot(turned(by_head) - turned(angle)) + common + noise * normal(random);
         match.sigma = 0.01;
-        made[k].matches.push_back(match);
+        result[k].matches.push_back(match);
       }
     }
-    return made;
+    return result;
   }
 };
 
-ConsistencyTest testOf(const Corridor& corridor) {
+ConsistencyTest testCorridor(const Corridor& corridor) {
   std::vector<ConsistencyTest> tests;
   std::vector<AbsentMeasurement> absent;
   testLaserMountings(corridor.drive(), {"laser_left", "laser_right"}, kTestFalseAlarm, tests, absent);
@@ -79,7 +79,7 @@ TEST(LaserMounting, PassesInFiftyUnchangedDrives) {
     Corridor corridor;
     corridor.seed = seed;
     corridor.left = 0.4 * kTestDegree;  // a constant within the accuracy of a measured mounting
-    EXPECT_GT(testOf(corridor).p_value, 1e-3) << seed;
+    EXPECT_GT(testCorridor(corridor).p_value, 1e-3) << seed;
   }
 }
 
@@ -87,7 +87,7 @@ TEST(LaserMounting, NamesTheLaserThatTurnsAndWhen) {
   Corridor corridor;
   corridor.from = 20;
   corridor.right = -1.5 * kTestDegree;
-  const ConsistencyTest test = testOf(corridor);
+  const ConsistencyTest test = testCorridor(corridor);
   EXPECT_LT(test.p_value, kTestFalseAlarm);
   EXPECT_NE(test.sentence.find("laser_right"), std::string::npos);
   EXPECT_NEAR(1e-9 * static_cast<double>(test.interval.from), 20.0, 1.5);
@@ -96,7 +96,7 @@ TEST(LaserMounting, NamesTheLaserThatTurnsAndWhen) {
 TEST(LaserMounting, ALaserTurnedFromTheStartIsOffItsMounting) {
   Corridor corridor;
   corridor.left = 5.0 * kTestDegree;
-  const ConsistencyTest test = testOf(corridor);
+  const ConsistencyTest test = testCorridor(corridor);
   EXPECT_LT(test.p_value, kTestFalseAlarm);
   EXPECT_NE(test.sentence.find("off its stated mounting"), std::string::npos);
 }
@@ -105,7 +105,7 @@ TEST(LaserMounting, BothLasersTogetherAreTheHead) {
   Corridor corridor;
   corridor.from = 20;
   corridor.head = 1.5 * kTestDegree;
-  const ConsistencyTest test = testOf(corridor);
+  const ConsistencyTest test = testCorridor(corridor);
   EXPECT_LT(test.p_value, kTestFalseAlarm);
   EXPECT_NE(test.remedy.find("stereo head"), std::string::npos);
 }

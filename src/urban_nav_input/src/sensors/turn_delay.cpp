@@ -16,7 +16,7 @@ constexpr StampNs kLongestTurnDelay = 500'000'000,
 constexpr StampNs kTransportDelay = 50'000'000;  // ns: exposure, transfer and receipt of sensors without a common clock
 constexpr StampNs kLongestTurnGap = 300'000'000;  // ns between messages that are interpolated
 constexpr std::size_t kLeastTurns = 10;
-constexpr double kAlike = 0.8;  // least correlation
+constexpr double kLeastCorrelation = 0.8;
 // Log likelihood ratio: a false alarm in 10^5 for each of the 200 delays tried.
 constexpr double kSignificant = 17.0;
 
@@ -94,7 +94,7 @@ std::optional<double> findTurnDelay(const std::vector<StampNs>& stamps, const st
   }
   const double ratio = 0.5 * static_cast<double>(covered.size()) * std::log(best_near.squares / best.squares);
   const bool is_bracketed = std::abs(found) < kLongestTurnDelay;
-  if (std::abs(found) <= kTransportDelay || !is_bracketed || best.cosine < kAlike || !(ratio > kSignificant))
+  if (std::abs(found) <= kTransportDelay || !is_bracketed || best.cosine < kLeastCorrelation || !(ratio > kSignificant))
     return std::nullopt;
   return 1e-9 * static_cast<double>(found);
 }

@@ -15,7 +15,7 @@ urban_nav_core::Row<P> drainRow(double P::*drain_s, double seconds = 5.0) {
           0.0,
           3600.0,
           {},
-          "Time after an interrupt for the stage to process and publish pending inputs; dropped ones are logged.",
+          "Time after an interrupt to process pending inputs.",
           "docs/architecture.md"};
 }
 

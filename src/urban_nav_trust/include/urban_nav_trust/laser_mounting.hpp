@@ -26,9 +26,9 @@ std::vector<LaserAngle> laserAngles(const std::vector<KeyframeMatches>& keyframe
 
 /// Tests that no laser has turned about its scan axis: the angle of each must not change over the session, and must be
 /// within the accuracy of a measured mounting. `lasers`: their names, by number. If all change together, the stereo
-/// head has turned. Returns the numbers of the lasers for which it fails, whose surfaces measure nothing else.
-std::vector<int> testLaserMountings(const std::vector<KeyframeMatches>& keyframes, const std::vector<std::string>& lasers,
-                        double false_alarm, std::vector<ConsistencyTest>& tests,
-                        std::vector<AbsentMeasurement>& absent);
+/// head has turned. Returns the numbers of the lasers for which it fails, whose surfaces are no measurement of lengths.
+std::vector<int> testLaserMountings(const std::vector<KeyframeMatches>& keyframes,
+                                    const std::vector<std::string>& lasers, double false_alarm,
+                                    std::vector<ConsistencyTest>& tests, std::vector<AbsentMeasurement>& absent);
 
 }  // namespace urban_nav_trust
