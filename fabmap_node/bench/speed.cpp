@@ -269,7 +269,7 @@ void addImages(const std::vector<cv::Mat>& images, BenchTable& table) {
     const PlaceDescription& one = descriptions[1 + i % (kDescribed - 1)];
     matcher.add({0, static_cast<urban_nav_core::StampNs>(i) * 1'000'000'000, one.words, one.look});
   }
-  const LookFeatures a = unpackLook(descriptions[0].look, "a"), b = unpackLook(descriptions[1].look, "b");
+  const ComparedFeatures a = unpackLook(descriptions[0].look, "a"), b = unpackLook(descriptions[1].look, "b");
   table.add({"second look at one place", std::to_string(a.size()) + " descriptors",
              cell(medianMs(21, [&] { secondLook(a, b); }), 2)});
   const DescribedPlace query{1, 0, descriptions[0].words, descriptions[0].look};

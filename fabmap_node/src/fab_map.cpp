@@ -65,7 +65,7 @@ PlaceBelief FabMap::decide(const PlaceRecognition& recognition) const {
 PlaceOutput FabMap::process(StampNs stamp, const PlaceDescription& description, double travelled) {
   PlaceOutput output;
   if (description.status == ObservationStatus::Used) {
-    LookFeatures look = unpackLook(description.look, "observation");
+    ComparedFeatures look = unpackLook(description.look, "observation");
     if (last_look_ && isStationary(*last_look_, look)) {
       output.belief = last_belief_;
       output.belief.at.stamp = stamp;

@@ -77,8 +77,8 @@ class FabMap {
   PlaceRecogniser recogniser_;
   ClosureSelector selector_;
   std::vector<std::string> sessions_;
-  std::vector<double> travelled_;          // per place
-  std::optional<LookFeatures> last_look_;  // in this session
+  std::vector<double> travelled_;              // per place
+  std::optional<ComparedFeatures> last_look_;  // in this session
   PlaceBelief last_belief_;
 };
 

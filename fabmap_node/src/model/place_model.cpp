@@ -20,8 +20,9 @@ using urban_nav_core::DataError;
 
 namespace {
 
-// 1: without sequences. 3: with OpenCV's features, which are no longer supported.
-constexpr std::uint32_t kOldestVersion = 1, kModelVersion = 2, kOpencvVersion = 3;
+// 1: without sequences. 1 and 2: panoramas calibrated for another comparison. 3: with OpenCV's features, which are no
+// longer supported.
+constexpr std::uint32_t kOldestVersion = 1, kOpencvVersion = 3, kModelVersion = 4;
 constexpr char kModelName[] = "places model";
 constexpr std::size_t kMostWords = 1'000'000;
 
@@ -149,7 +150,7 @@ PlaceModel parseModelContent(std::string_view content, const std::string& name) 
 PlaceModel parseModel(std::string_view bytes, const std::string& name) {
   urban_nav_core::UnsealedState state;
   try {
-    state = urban_nav_core::unseal(kModelName, kOldestVersion, kOpencvVersion, bytes);
+    state = urban_nav_core::unseal(kModelName, kOldestVersion, kModelVersion, bytes);
   } catch (const urban_nav_core::Error& error) {
     const std::string foreign = urban_nav_core::describeForeignContent(bytes);
     throw DataError(name, foreign.empty() ? error.what() : foreign,
@@ -159,7 +160,9 @@ PlaceModel parseModel(std::string_view bytes, const std::string& name) {
   if (state.version == kOpencvVersion)
     throw DataError(name, "a model of OpenCV's features (sift or orb)",
                     "a model of upright features, as places train writes it: train it again");
-  return parseVersion(state.content, state.version, name);
+  PlaceModel model = parseVersion(state.content, state.version, name);
+  if (state.version < kModelVersion) useSuppliedPanoramaCalibrations(model);
+  return model;
 }
 
 PlaceModel readModel(const std::string& path) { return parseModel(urban_nav_core::readBytes(path), path); }

@@ -55,7 +55,7 @@ PlaceDescription PlaceDescriber::describe(const PlaceObservation& observation) c
   PlaceDescription description;
   description.cameras = observation.cameras;
   description.words = vocabulary_.words(observation);
-  description.look = packLook(lookFeatures(observation, look_features_));
+  description.look = packLook(selectFeatures(observation, look_features_));
   if (description.words.size() < kLeastWords) description.status = ObservationStatus::TooFewFeatures;
   return description;
 }

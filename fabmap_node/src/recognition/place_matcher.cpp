@@ -17,7 +17,7 @@ namespace {
 /// A candidate elsewhere shows the same place, in another session or on another lap, if its agreement with both the
 /// query and the best place is at least this share of the agreement of query and best place.
 constexpr double kSamePlaceShare = 0.5;
-constexpr std::size_t kThinning = 4;       // of the descriptors in the first comparison
+constexpr std::size_t kThinning = 4;       // of the descriptors of single images in the first comparison
 constexpr int kSmallestSelection = 10;     // candidates without descriptor matching
 constexpr std::size_t kMostSorted = 1000;  // candidates, unless more are required
 
@@ -28,7 +28,7 @@ double logMeanOfExponentials(const std::vector<double>& logs) {
   return top + std::log(sum / static_cast<double>(logs.size()));
 }
 
-LookFeatures unpackPlaceLook(const std::string& packed, const DescribedPlace& place) {
+ComparedFeatures unpackPlaceLook(const std::string& packed, const DescribedPlace& place) {
   return unpackLook(packed, "place at " + urban_nav_core::printStamp(place.stamp) + " s");
 }
 
@@ -51,7 +51,9 @@ std::string PlaceMatcher::packedLook(std::size_t place) const {
   return read_look_ ? read_look_(one.session, one.stamp) : one.look;
 }
 
-LookFeatures PlaceMatcher::look(std::size_t place) const { return unpackPlaceLook(packedLook(place), places_[place]); }
+ComparedFeatures PlaceMatcher::look(std::size_t place) const {
+  return unpackPlaceLook(packedLook(place), places_[place]);
+}
 
 bool PlaceMatcher::isElsewhere(std::size_t a, std::size_t b) const {
   return places_[a].session != places_[b].session || std::abs(places_[a].stamp - places_[b].stamp) > options_.elsewhere;
@@ -96,11 +98,12 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::likeliest(
 }
 
 /// Compares every `step`-th descriptor of the places with those of the query.
-void PlaceMatcher::compareAll(const LookFeatures& query, std::size_t step, std::vector<Candidate>& candidates) const {
+void PlaceMatcher::compareAll(const ComparedFeatures& query, std::size_t step,
+                              std::vector<Candidate>& candidates) const {
   std::vector<std::string> packed;
   for (const Candidate& candidate : candidates) packed.push_back(packedLook(candidate.place));
   urban_nav_core::forEach(candidates.size(), 1, [&](std::size_t i) {
-    const LookFeatures all = unpackPlaceLook(packed[i], places_[candidates[i].place]);
+    const ComparedFeatures all = unpackPlaceLook(packed[i], places_[candidates[i].place]);
     candidates[i].look = secondLook(query, step > 1 ? thinnedOut(all, step) : all);
   });
 }
@@ -146,14 +149,16 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::comparedCandidates(
     const std::function<bool(std::size_t)>& isCandidate) const {
   std::vector<Candidate> candidates = likeliest(likelihoods, isCandidate);
   if (options_.second_looks > 0 && !candidates.empty()) {
-    const LookFeatures own = unpackPlaceLook(query.look, query);
-    if (candidates.size() > static_cast<std::size_t>(options_.second_looks)) {
-      compareAll(own, kThinning, candidates);
+    const ComparedFeatures own = unpackPlaceLook(query.look, query);
+    const bool is_reduced = candidates.size() > static_cast<std::size_t>(options_.second_looks);
+    const bool is_thinned = is_reduced && own.cameras == 1;
+    compareAll(own, is_thinned ? kThinning : 1, candidates);
+    if (is_reduced) {
       std::stable_sort(candidates.begin(), candidates.end(),
                        [](const Candidate& a, const Candidate& b) { return a.look.share > b.look.share; });
       candidates = selectVaried(candidates, options_.second_looks);
     }
-    compareAll(own, 1, candidates);
+    if (is_thinned) compareAll(own, 1, candidates);
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.look.share != b.look.share ? a.look.share > b.look.share : a.log_likelihood > b.log_likelihood;

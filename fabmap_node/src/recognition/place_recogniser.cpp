@@ -51,7 +51,7 @@ PlaceRecognition PlaceRecogniser::process(urban_nav_core::StampNs stamp, const P
 
 /// Removes the previous observation from the filter if the camera has not moved since.
 void PlaceRecogniser::followLook(const std::string& look) {
-  LookFeatures now = unpackLook(look, "observation");
+  ComparedFeatures now = unpackLook(look, "observation");
   if (last_look_ && isStationary(*last_look_, now)) filter_ = filter_before_;
   last_look_ = std::move(now);
 }

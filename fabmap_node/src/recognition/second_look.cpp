@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fabmap_node/recognition/compact_look.hpp"
 #include "features/descriptor_source.hpp"
+#include "recognition/panorama_matches.hpp"
 
 namespace fabmap_node {
 namespace {
@@ -12,8 +14,6 @@ namespace {
 constexpr float kVoteWidth = 0.08F;  // side of a vote cell, relative to the image
 constexpr int kVoteHalf = 13;        // cells on each side of zero: displacements of up to a whole image
 constexpr int kVoteSide = 2 * kVoteHalf + 1;
-constexpr int kHeadingsPerCamera = 7;     // vote bins of the change of heading, about 10 deg each for five cameras
-constexpr float kSameHeight = 0.12F;      // share of the image's height
 constexpr float kHorizon = 0.45F;         // relative height in the image below which there is hardly any sky
 constexpr std::size_t kFewestBelow = 40;  // features below the horizon that are sufficient for a separate test
 constexpr float kStill = 0.006F;          // relative to the image: about 3 px
@@ -67,37 +67,11 @@ Agreeing agreeingSingle(const std::vector<Move>& moves) {
   });
 }
 
-/// Returns the largest number of changes of heading in three adjacent bins, among matches at the same height.
-Agreeing agreeingPanorama(const std::vector<Move>& moves, int cameras) {
-  const int bins = kHeadingsPerCamera * cameras;
-  const auto bin = [bins](float turn) {
-    return (static_cast<int>(std::lround(turn * kHeadingsPerCamera)) % bins + bins) % bins;
-  };
-  std::vector<int> votes(static_cast<std::size_t>(bins), 0);
-  for (const Move& move : moves)
-    if (std::abs(move.by.y()) <= kSameHeight) ++votes[static_cast<std::size_t>(bin(move.by.x()))];
-  int best = 0, best_bin = 0;
-  for (int i = 0; i < bins; ++i) {
-    const int sum = votes[static_cast<std::size_t>(i)] + votes[static_cast<std::size_t>((i + 1) % bins)] +
-                    votes[static_cast<std::size_t>((i + 2) % bins)];
-    if (sum <= best) continue;
-    best = sum;
-    best_bin = i;
-  }
-  if (best == 0) return {};
-  return countAmong(moves, [&](const Eigen::Vector2f& by) {
-    return std::abs(by.y()) <= kSameHeight && (bin(by.x()) - best_bin + bins) % bins <= 2;
-  });
-}
-
-/// Returns the share of matches that are consistent by chance.
-double chanceShare(int cameras) {
-  return cameras > 1 ? 3.0 / (kHeadingsPerCamera * cameras) * 2.0 * static_cast<double>(kSameHeight) : 9.0 * 0.0064;
-}
+constexpr double kChanceShare = 9.0 * 0.0064;  // of matches that are consistent by chance: nine cells
 
 bool isBelowHorizon(const Eigen::Vector2f& direction) { return direction.y() > kHorizon; }
 
-std::vector<Move> computeMoves(const LookFeatures& a, const LookFeatures& b) {
+std::vector<Move> computeMoves(const ComparedFeatures& a, const ComparedFeatures& b) {
   std::vector<Move> moves;
   for (const auto& [i, j] : mutualMatches(a.descriptors, b.descriptors))
     moves.push_back(
@@ -106,67 +80,88 @@ std::vector<Move> computeMoves(const LookFeatures& a, const LookFeatures& b) {
 }
 
 /// Returns the share of `possible` features that are consistent beyond chance.
-double shareBeyondChance(int agreeing, std::size_t matches, int cameras, std::size_t possible) {
-  const double beyond = agreeing - chanceShare(cameras) * static_cast<double>(matches);
+double shareBeyondChance(int agreeing, std::size_t matches, std::size_t possible) {
+  const double beyond = agreeing - kChanceShare * static_cast<double>(matches);
   return std::clamp(beyond / static_cast<double>(possible), 0.0, 1.0);
 }
 
-std::size_t countBelow(const LookFeatures& look) {
+/// Returns the number of features of a panorama that take the bytes of `single` features of a single image.
+std::size_t panoramaFeaturesFor(std::size_t single) { return single * kSingleFeatureBytes / kPanoramaFeatureBytes; }
+
+std::array<unsigned, kLookElements> addAdjacent(const ByteDescriptor& descriptor) {
+  std::array<unsigned, kLookElements> elements{};
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    elements[i] = static_cast<unsigned>(descriptor[2 * i]) + static_cast<unsigned>(descriptor[2 * i + 1]);
+  return elements;
+}
+
+std::size_t countBelow(const ComparedFeatures& look) {
   return static_cast<std::size_t>(std::count_if(look.directions.begin(), look.directions.end(), isBelowHorizon));
 }
 
 }  // namespace
 
-LookFeatures lookFeatures(const PlaceObservation& observation, std::size_t most) {
-  LookFeatures look;
-  look.cameras = observation.cameras;
-  const std::size_t all = observation.features.size(), count = std::min(all, most);
-  look.descriptors.resize(Eigen::NoChange, static_cast<Eigen::Index>(count));
-  look.directions.reserve(count);
+ComparedFeatures selectFeatures(const PlaceObservation& observation, std::size_t most) {
+  ComparedFeatures selected;
+  selected.cameras = observation.cameras;
+  const bool is_panorama = selected.cameras > 1;
+  const std::size_t all = observation.features.size();
+  const std::size_t count = std::min(all, is_panorama ? panoramaFeaturesFor(most) : most);
+  if (!is_panorama) selected.descriptors.resize(Eigen::NoChange, static_cast<Eigen::Index>(count));
   for (std::size_t k = 0; k < count; ++k) {
     const PlaceFeature& feature = observation.features[k * all / count];
-    auto column = look.descriptors.col(static_cast<Eigen::Index>(k));
-    for (std::size_t i = 0; i < kDescriptorBytes / 2; ++i)
-      column(static_cast<Eigen::Index>(i)) =
-          static_cast<float>(feature.descriptor[2 * i]) + static_cast<float>(feature.descriptor[2 * i + 1]);
+    const auto elements = addAdjacent(feature.descriptor);
+    const Eigen::Vector2f direction(static_cast<float>(feature.camera) + feature.u, feature.v);
+    if (is_panorama) {
+      selected.panorama.push_back(rankElements(elements));
+      selected.panorama.back().direction = direction;
+      continue;
+    }
+    auto column = selected.descriptors.col(static_cast<Eigen::Index>(k));
+    for (std::size_t i = 0; i < elements.size(); ++i)
+      column(static_cast<Eigen::Index>(i)) = static_cast<float>(elements[i]);
     column /= std::max(1.0F, column.norm());
-    look.directions.emplace_back(static_cast<float>(feature.camera) + feature.u, feature.v);
+    selected.directions.push_back(direction);
   }
-  return look;
+  sortByElevation(selected.panorama);
+  return selected;
 }
 
-LookFeatures thinnedOut(const LookFeatures& look, std::size_t step) {
-  LookFeatures some;
+ComparedFeatures thinnedOut(const ComparedFeatures& look, std::size_t step) {
+  ComparedFeatures some;
   some.cameras = look.cameras;
-  const std::size_t count = (look.size() + step - 1) / step;
-  some.descriptors.resize(Eigen::NoChange, static_cast<Eigen::Index>(count));
-  for (std::size_t k = 0; k < count; ++k) {
+  for (std::size_t k = 0; k < look.panorama.size(); k += step) some.panorama.push_back(look.panorama[k]);
+  for (std::size_t k = 0; k < look.directions.size(); k += step) some.directions.push_back(look.directions[k]);
+  some.descriptors.resize(Eigen::NoChange, static_cast<Eigen::Index>(some.directions.size()));
+  for (std::size_t k = 0; k < some.directions.size(); ++k)
     some.descriptors.col(static_cast<Eigen::Index>(k)) = look.descriptors.col(static_cast<Eigen::Index>(k * step));
-    some.directions.push_back(look.directions[k * step]);
-  }
   return some;
 }
 
-LookAgreement secondLook(const LookFeatures& a, const LookFeatures& b) {
+LookAgreement secondLook(const ComparedFeatures& a, const ComparedFeatures& b) {
   LookAgreement result;
   if (a.cameras != b.cameras || a.size() == 0 || b.size() == 0) return result;
+  if (a.cameras > 1) return comparePanoramas(a, b);
   const std::vector<Move> moves = computeMoves(a, b);
-  const Agreeing agreeing = a.cameras > 1 ? agreeingPanorama(moves, a.cameras) : agreeingSingle(moves);
+  const Agreeing agreeing = agreeingSingle(moves);
   result.matches = static_cast<int>(moves.size());
   result.agreeing = agreeing.all;
-  result.whole = shareBeyondChance(agreeing.all, moves.size(), a.cameras, std::min(a.size(), b.size()));
+  result.whole = shareBeyondChance(agreeing.all, moves.size(), std::min(a.size(), b.size()));
   result.share = result.whole;
   const std::size_t below = std::min(countBelow(a), countBelow(b));
   if (below < kFewestBelow) return result;
   const auto matches_below = static_cast<std::size_t>(
       std::count_if(moves.begin(), moves.end(), [](const Move& move) { return move.is_below; }));
-  result.share = std::min(result.whole, shareBeyondChance(agreeing.below, matches_below, a.cameras, below));
+  result.share = std::min(result.whole, shareBeyondChance(agreeing.below, matches_below, below));
   return result;
 }
 
-bool isStationary(const LookFeatures& a, const LookFeatures& b) {
+bool isStationary(const ComparedFeatures& a, const ComparedFeatures& b) {
   if (a.cameras != b.cameras || a.size() == 0 || b.size() == 0) return false;
-  const std::vector<Move> moves = computeMoves(a, b);
+  std::vector<Move> moves;
+  if (a.cameras == 1) moves = computeMoves(a, b);
+  else
+    for (const PanoramaMatch& match : matchPanoramas(a, b)) moves.push_back({match.displacement()});
   const auto unmoved = std::count_if(moves.begin(), moves.end(), [](const Move& move) {
     return std::abs(move.by.x()) < kStill && std::abs(move.by.y()) < kStill;
   });

@@ -89,7 +89,7 @@ class KeyframePlaces::Search {
     const PlaceDescription query = describe(keyframe);
     if (query.status != ObservationStatus::Used || places_.empty()) return {};
     std::vector<Candidate> candidates = likeliest(query.words);
-    const LookFeatures look = unpackLook(query.look, "query");
+    const ComparedFeatures look = unpackLook(query.look, "query");
     compare(look, kPartialStep, candidates);
     if (candidates.size() > kFullyCompared) candidates.resize(kFullyCompared);
     compare(look, 1, candidates);
@@ -108,7 +108,7 @@ class KeyframePlaces::Search {
   struct Candidate {
     std::size_t place = 0;
     double log_likelihood = 0.0, share = 0.0;
-    LookFeatures look;
+    ComparedFeatures look;
   };
 
   Search(Store& store, std::vector<SearchedKeyframe> keyframes, const MapModel& model)
@@ -181,15 +181,15 @@ class KeyframePlaces::Search {
     return candidates;
   }
 
-  LookFeatures look(const IndexedPlace& place) const {
+  ComparedFeatures look(const IndexedPlace& place) const {
     if (!place.look.empty()) return unpackLook(place.look, "keyframe of the map");
     const auto row = storedRow(keyframes_[place.keyframe]);
-    return row ? unpackLook(row->descriptors, "keyframe of the map") : LookFeatures();
+    return row ? unpackLook(row->descriptors, "keyframe of the map") : ComparedFeatures();
   }
 
   /// Compares every `step`-th descriptor, and sorts by agreement. Sky needs no special treatment here, since geometric
   /// verification follows.
-  static void compare(const LookFeatures& query, std::size_t step, std::vector<Candidate>& candidates) {
+  static void compare(const ComparedFeatures& query, std::size_t step, std::vector<Candidate>& candidates) {
     urban_nav_core::forEach(candidates.size(), 1, [&](std::size_t i) {
       Candidate& each = candidates[i];
       each.share = secondLook(query, step > 1 ? thinnedOut(each.look, step) : each.look).whole;

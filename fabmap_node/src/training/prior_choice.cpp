@@ -93,10 +93,7 @@ PriorChoice choosePrior(const std::vector<CalibrationSample>& samples) {
   const auto best =
       std::min_element(choice.losses.begin(), choice.losses.end(),
                        [](const HeldOutLoss& a, const HeldOutLoss& b) { return a.log_loss < b.log_loss; });
-  const double most = best->log_loss + best->standard_error;
-  const auto chosen = std::find_if(choice.losses.begin(), choice.losses.end(),
-                                   [most](const HeldOutLoss& loss) { return loss.log_loss <= most; });
-  choice.prior_deviation = chosen->prior_deviation;
+  choice.prior_deviation = best->prior_deviation;
   return choice;
 }
 

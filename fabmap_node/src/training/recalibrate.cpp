@@ -42,7 +42,7 @@ LocatedPlaces describeDay(const LocatedDay& day, std::size_t number, bool first_
       observation.cameras = 1;
     }
     described.places[i] = {number, day[i].stamp, model.vocabulary.words(observation),
-                           packLook(lookFeatures(observation, look_features))};
+                           packLook(selectFeatures(observation, look_features))};
   });
   for (const LocatedImage& image : day) {
     described.positions.push_back(image.position);
@@ -164,9 +164,10 @@ RecalibrationReport recalibrate(PlaceModel& model, const std::vector<LocatedSite
     }
   if (!hasTwoDays(singles)) throw UserError("calibration", "no site with two days", "two days at one site at least");
   const KindCalibration single = fitKind(model, singles, false, options, report);
-  const KindCalibration panorama = hasTwoDays(panoramas) ? fitKind(model, panoramas, true, options, report) : single;
   model.single = single.alone;
   model.single_sequence = single.sequence;
+  if (!hasTwoDays(panoramas)) return report;
+  const KindCalibration panorama = fitKind(model, panoramas, true, options, report);
   model.panorama = panorama.alone;
   model.panorama_sequence = panorama.sequence;
   return report;

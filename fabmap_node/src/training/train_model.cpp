@@ -23,9 +23,9 @@ using Step = std::function<void(const std::string&, double)>;
 std::size_t removeStationary(TrainingDrive& drive, std::size_t look_features) {
   const std::size_t before = drive.size();
   TrainingDrive moving;
-  LookFeatures last;
+  ComparedFeatures last;
   for (TrainingImage& image : drive) {
-    LookFeatures look = lookFeatures(image.observation, look_features);
+    ComparedFeatures look = selectFeatures(image.observation, look_features);
     if (!moving.empty() && isStationary(last, look)) continue;
     last = std::move(look);
     moving.push_back(std::move(image));
@@ -61,7 +61,7 @@ DescribedDrive described(const TrainingDrive& drive, std::size_t number, const V
   urban_nav_core::forEach(drive.size(), 1, [&](std::size_t i) {
     const PlaceObservation& observation = drive[i].observation;
     result[i] = {number, drive[i].stamp, vocabulary.words(observation),
-                 packLook(lookFeatures(observation, look_features))};
+                 packLook(selectFeatures(observation, look_features))};
   });
   return result;
 }
@@ -108,9 +108,7 @@ void calibrate(const std::vector<TrainingDrive>& drives, const TrainingOptions& 
   std::vector<DescribedDrive> singles = describedDrives(drives, false, model.vocabulary, look_features);
   if (singles.empty()) singles = describedDrives(firstCameras(drives), false, model.vocabulary, look_features);
   fit(singles, "calibration of single images", model.single, model.single_sequence);
-  if (has_panoramas) return;
-  model.panorama = model.single;
-  model.panorama_sequence = model.single_sequence;
+  if (!has_panoramas) useSuppliedPanoramaCalibrations(model);
 }
 
 }  // namespace

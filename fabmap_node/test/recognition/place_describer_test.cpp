@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "fabmap_node/model/place_model.hpp"
 #include "fabmap_node/model/word_bytes.hpp"
@@ -66,27 +68,87 @@ TEST(PlaceDescriber, ContinuesWithoutOneOfFiveCameras) {
   EXPECT_EQ(description.missing, 1);
 }
 
-TEST(CompactLook, KeepsDescriptorsAndDirections) {
-  const LookFeatures look = lookFeatures(syntheticPlace(3, 0, 5), 1000);
-  const std::string bytes = packLook(look);
-  const LookFeatures read = unpackLook(bytes, "look");
-  ASSERT_EQ(read.size(), look.size());
+TEST(CompactLook, KeepsLevelsAndDirectionsOfPanoramas) {
+  ComparedFeatures features = selectFeatures(syntheticPlace(3, 0, 5), 1000);
+  const ComparedFeatures read = unpackLook(packLook(features), "look");
+  // Features of one level of elevation are read by azimuth.
+  for (PanoramaFeature& feature : features.panorama)
+    feature.direction.y() = std::round(feature.direction.y() * 255.0F) / 255.0F;
+  sortByElevation(features.panorama);
+  ASSERT_EQ(read.size(), features.size());
   EXPECT_EQ(read.cameras, 5);
-  for (std::size_t k = 0; k < look.size(); ++k) {
-    EXPECT_GT(
-        look.descriptors.col(static_cast<Eigen::Index>(k)).dot(read.descriptors.col(static_cast<Eigen::Index>(k))),
-        0.99F);
-    EXPECT_NEAR((look.directions[k] - read.directions[k]).norm(), 0.0F, 2e-5F);
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    EXPECT_EQ(features.panorama[k].middle, read.panorama[k].middle);
+    EXPECT_EQ(features.panorama[k].top, read.panorama[k].top);
+    const Eigen::Vector2f off = features.panorama[k].direction - read.panorama[k].direction;
+    EXPECT_NEAR(off.x(), 0.0F, 5e-5F);
+    EXPECT_NEAR(off.y(), 0.0F, 1e-6F);
+  }
+  EXPECT_EQ(packLook(read), packLook(unpackLook(packLook(read), "look"))) << "reading and writing are inverse";
+  EXPECT_GT(secondLook(features, read).whole, 0.9);
+}
+
+TEST(CompactLook, KeepsTheResolutionOfSingleImages) {
+  const ComparedFeatures features = selectFeatures(syntheticPlace(3, 0), 1000);
+  const std::string bytes = packLook(features);
+  const ComparedFeatures read = unpackLook(bytes, "look");
+  ASSERT_EQ(read.size(), features.size());
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    EXPECT_GT(features.descriptors.col(column).dot(read.descriptors.col(column)), 0.99F);
+    EXPECT_NEAR((features.directions[k] - read.directions[k]).norm(), 0.0F, 2e-5F);
   }
   EXPECT_EQ(packLook(read), bytes) << "reading and writing are inverse";
-  EXPECT_GT(secondLook(look, read).share, 0.9);
+}
+
+/// Encoding of panoramas by earlier versions: elements of 4 bits of the unit vector, 40 levels per unit, and directions
+/// with 16 bits per coordinate.
+std::string packAsBefore(const PlaceObservation& observation) {
+  std::string bytes;
+  const auto put = [&bytes](unsigned value, int size) {
+    for (int i = 0; i < size; ++i) bytes.push_back(static_cast<char>(value >> (8 * i) & 255u));
+  };
+  put(observation.cameras, 1);
+  put(static_cast<unsigned>(observation.features.size()), 2);
+  for (const PlaceFeature& feature : observation.features) {
+    std::vector<double> elements;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < kDescriptorBytes; i += 2) {
+      elements.push_back(feature.descriptor[i] + feature.descriptor[i + 1]);
+      squares += elements.back() * elements.back();
+    }
+    const auto level = [&](std::size_t i) {
+      return static_cast<unsigned>(std::min(15L, std::lround(40.0 * elements[i] / std::sqrt(squares))));
+    };
+    for (std::size_t i = 0; i < elements.size(); i += 2) put(level(i) | level(i + 1) << 4, 1);
+    put(feature.camera, 1);
+    put(static_cast<unsigned>(std::lround(65535.0F * std::min(1.0F, feature.u))), 2);
+    put(static_cast<unsigned>(std::lround(65535.0F * feature.v)), 2);
+  }
+  return bytes;
+}
+
+TEST(CompactLook, ReadsPanoramasOfEarlierVersions) {
+  for (const std::uint8_t cameras : {std::uint8_t{1}, std::uint8_t{5}}) {
+    const ComparedFeatures old = unpackLook(packAsBefore(syntheticPlace(3, 0, cameras)), "look");
+    EXPECT_EQ(old.cameras, cameras);
+    EXPECT_EQ(old.size(), 60u);
+    EXPECT_GT(secondLook(old, selectFeatures(syntheticPlace(3, 1, cameras), 1000)).share, 0.3);
+    EXPECT_LT(secondLook(old, selectFeatures(syntheticPlace(2, 1, cameras), 1000)).share, 0.15);
+  }
 }
 
 TEST(CompactLook, RefusesDamagedBytes) {
-  const std::string bytes = packLook(lookFeatures(syntheticPlace(3, 0), 10));
-  for (const std::size_t size : {std::size_t{0}, std::size_t{2}, std::size_t{3}, bytes.size() - 1})
-    EXPECT_THROW(unpackLook(bytes.substr(0, size), "look"), urban_nav_core::DataError);
-  EXPECT_THROW(unpackLook(bytes + "x", "look"), urban_nav_core::DataError);
+  for (const std::string& bytes :
+       {packLook(selectFeatures(syntheticPlace(3, 0), 10)), packLook(selectFeatures(syntheticPlace(3, 0, 5), 10)),
+        packAsBefore(syntheticPlace(3, 0, 5))}) {
+    for (const std::size_t size : {std::size_t{0}, std::size_t{2}, std::size_t{3}, std::size_t{4}, bytes.size() - 1})
+      EXPECT_THROW(unpackLook(bytes.substr(0, size), "look"), urban_nav_core::DataError) << size;
+    EXPECT_THROW(unpackLook(bytes + "x", "look"), urban_nav_core::DataError);
+  }
+  std::string later = packLook(selectFeatures(syntheticPlace(3, 0, 5), 10));
+  later[1] = 3;
+  EXPECT_THROW(unpackLook(later, "look"), urban_nav_core::DataError);
 }
 
 TEST(WordBytes, ReadBackAndRefuseDamage) {
@@ -127,7 +189,7 @@ TEST(PlaceRows, ReadBackAndRefuseDamage) {
 TEST(PlaceRows, Fuzzed) {
   const PlaceDescription description = describePixels(squares(4));
   const urban_nav_store::StoredPlace row = toStoredPlace("session", 17, description, "hash");
-  const LookFeatures own = unpackLook(description.look, "query");
+  const ComparedFeatures own = unpackLook(description.look, "query");
   const auto fuzz = [&](const std::string& seed, std::string urban_nav_store::StoredPlace::*column) {
     return urban_nav_core::testing::fuzzText({seed}, [&](const std::string& text) {
       urban_nav_store::StoredPlace damaged = row;
@@ -142,8 +204,11 @@ TEST(PlaceRows, Fuzzed) {
       }
     });
   };
-  for (const auto& result : {fuzz(row.words, &urban_nav_store::StoredPlace::words),
-                             fuzz(row.descriptors, &urban_nav_store::StoredPlace::descriptors)}) {
+  for (const auto& result :
+       {fuzz(row.words, &urban_nav_store::StoredPlace::words),
+        fuzz(row.descriptors, &urban_nav_store::StoredPlace::descriptors),
+        fuzz(packLook(selectFeatures(syntheticPlace(3, 0, 5), 20)), &urban_nav_store::StoredPlace::descriptors),
+        fuzz(packAsBefore(syntheticPlace(3, 0, 5)), &urban_nav_store::StoredPlace::descriptors)}) {
     EXPECT_EQ(result.failure, "");
     EXPECT_GT(result.accepted, 0);
     EXPECT_GT(result.refused, 0);

@@ -48,6 +48,15 @@ TEST(Recalibrate, SeparatesPlacesSeenOnOtherDays) {
   EXPECT_LT(model.panorama.probability(other), 0.1);
 }
 
+TEST(Recalibrate, WithoutPanoramasKeepsTheirCalibrations) {
+  PlaceModel model = modelOfSyntheticDrives();
+  model.panorama.bias = -12.5;
+  const PlaceCalibration single = model.single;
+  recalibrate(model, {{locatedDay(0), locatedDay(1)}}, {});
+  EXPECT_EQ(model.panorama.bias, -12.5);
+  EXPECT_NE(model.single.bias, single.bias);
+}
+
 TEST(Recalibrate, ClaimsLessWhereOtherSitesLookTheSame) {
   const PlaceModel model = modelOfSyntheticDrives();
   std::vector<LocatedSite> sites = {{locatedDay(0), locatedDay(1)}};

@@ -108,6 +108,30 @@ TEST(PlaceModel, ReadsBackWhatWasPrinted) {
   EXPECT_EQ(read.tree.p, trainedOnce().model.tree.p);
 }
 
+// Their panoramas were calibrated for another comparison of descriptors.
+TEST(PlaceModel, ModelsOfVersionTwoTakeTheSuppliedCalibrationsOfPanoramas) {
+  PlaceModel written = trainedOnce().model, supplied = written;
+  written.panorama = written.single;
+  written.panorama_sequence = written.single_sequence;
+  useSuppliedPanoramaCalibrations(supplied);
+  const PlaceModel read = parseModel(urban_nav_core::seal("places model", 2, printModelContent(written)), "model");
+  EXPECT_EQ(printModelContent(read), printModelContent(supplied));
+  EXPECT_NE(printModelContent(read), printModelContent(written));
+}
+
+TEST(TrainModel, WithoutPanoramasTakesTheirSuppliedCalibrations) {
+  PlaceModel supplied = trainedOnce().model;
+  useSuppliedPanoramaCalibrations(supplied);
+  EXPECT_EQ(printModel(trainedOnce().model), printModel(supplied));
+  ASSERT_TRUE(supplied.panorama_sequence);
+  PlaceEvidence nothing, everything;
+  everything.word_ratio = everything.word_margin = everything.look = everything.look_margin = 0.5;
+  for (const PlaceCalibration& each : {supplied.panorama, *supplied.panorama_sequence}) {
+    EXPECT_LT(each.probability(nothing), 0.1);
+    EXPECT_GT(each.probability(everything), 0.99);
+  }
+}
+
 TEST(PlaceModel, ModelsOfOpenCvFeaturesAreRefusedByName) {
   const std::string orb("\2\0\0\0", 4);  // the kind of features, which version 3 of the file begins with
   const std::string bytes = urban_nav_core::seal("places model", 3, orb + printModelContent(trainedOnce().model));

@@ -15,9 +15,10 @@
 namespace fabmap_node {
 /// Options of the search for the earlier place that an observation shows.
 struct MatcherOptions {
-  int first_looks = 30;             ///< likeliest candidates of which a quarter of the descriptors is compared
-  int second_looks = 10;            ///< candidates of which all descriptors are compared; 0: none
-  std::size_t look_features = 540;  ///< features per place for descriptor matching: 19 kB
+  int first_looks = 30;             ///< likeliest candidates by words, of which descriptors are compared: of single
+                                    ///< images a quarter, of panoramas all
+  int second_looks = 10;            ///< candidates of these with the best agreement, of which all are; 0: none
+  std::size_t look_features = 540;  ///< features per single image for descriptor matching; selectFeatures(): 20 kB
   urban_nav_core::StampNs elsewhere = 10'000'000'000;  ///< smallest time between places of one session that are
                                                        ///< elsewhere, ns
 };
@@ -95,12 +96,12 @@ class PlaceMatcher {
   std::vector<Candidate> comparedCandidates(const DescribedPlace& query, const std::vector<double>& likelihoods,
                                             const std::function<bool(std::size_t)>& isCandidate) const;
   double logLikelihoodNew(const WordSet& query) const;
-  void compareAll(const LookFeatures& query, std::size_t step, std::vector<Candidate>& candidates) const;
+  void compareAll(const ComparedFeatures& query, std::size_t step, std::vector<Candidate>& candidates) const;
   PlaceMatch judge(const DescribedPlace& query, const std::vector<Candidate>& candidates, std::size_t which,
                    double log_likelihood_new) const;
   bool showSamePlace(const Candidate& best, const Candidate& other) const;
   std::string packedLook(std::size_t place) const;
-  LookFeatures look(std::size_t place) const;
+  ComparedFeatures look(std::size_t place) const;
 
   const MatcherOptions options_;
   const LookReader read_look_;  // empty: places_ contain the descriptors

@@ -13,8 +13,7 @@ namespace fabmap_node {
 /// Options of PlaceRecogniser.
 struct RecogniserOptions {
   MatcherOptions matcher;
-  bool sequence =
-      true;  ///< for places of other sessions, use previous observations, if the model is calibrated for it
+  bool sequence = true;  ///< for places of other sessions, use previous observations, if the model is calibrated for it
   bool detects_stationary = true;  ///< an observation of a stationary camera replaces the previous one in the sequence
   urban_nav_core::StampNs mask = 20'000'000'000;  ///< more recent places of the same session are not candidates, ns
 };
@@ -56,8 +55,8 @@ class PlaceRecogniser {
   const RecogniserOptions options_;
   LikelihoodTable table_;
   PlaceMatcher matcher_;
-  LocationFilter filter_, filter_before_;  // after and before the last observation of this session
-  std::optional<LookFeatures> last_look_;  // in this session, for the detection of stationary observations
+  LocationFilter filter_, filter_before_;      // after and before the last observation of this session
+  std::optional<ComparedFeatures> last_look_;  // in this session, for the detection of stationary observations
   std::size_t session_ = 0;
   bool has_session_ = false;
 };

@@ -20,10 +20,11 @@ struct PriorChoice {
   std::vector<HeldOutLoss> losses;  ///< for all deviations, ascending; empty with too few sites
 };
 
-/// Chooses the standard deviation of the prior of fitCalibration() by leave-one-site-out cross-validation: the smallest
-/// one whose loss exceeds the minimum by at most the standard error of the latter (Hastie et al. 2009, section 7.10).
-/// Returns the default with fewer than five sites, or unless samples of both kinds exist at two sites. Deterministic
-/// for any number of threads.
+/// Chooses the standard deviation of the prior of fitCalibration() by leave-one-site-out cross-validation: that of the
+/// smallest loss (Hastie et al. 2009, section 7.10). The smallest deviation within a standard error would depend on the
+/// differences between sites: a site that is difficult for every deviation enlarges the error, and probabilities are
+/// then nearer to 0.5 than the samples state. Returns the default with fewer than five sites, or unless samples of both
+/// kinds exist at two sites. Deterministic for any number of threads.
 PriorChoice choosePrior(const std::vector<CalibrationSample>& samples);
 
 }  // namespace fabmap_node

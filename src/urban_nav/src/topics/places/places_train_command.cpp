@@ -40,6 +40,22 @@ Json priorSummary(const std::vector<fabmap_node::CalibrationPrior>& priors) {
   return json;
 }
 
+Json calibrationSummary(const fabmap_node::PlaceCalibration& calibration) {
+  Json weights = Json::array();
+  for (const double weight : calibration.weights) weights.append(weight);
+  return Json::object({{"bias", calibration.bias},
+                       {"weights", std::move(weights)},
+                       {"floor", calibration.floor},
+                       {"ceiling", calibration.ceiling}});
+}
+
+/// Returns the calibrations of panoramas.
+Json panoramaSummary(const fabmap_node::PlaceModel& model) {
+  Json json = Json::object({{"without_sequence", calibrationSummary(model.panorama)}});
+  if (model.panorama_sequence) json["in_sequence"] = calibrationSummary(*model.panorama_sequence);
+  return json;
+}
+
 /// Returns the number of the site of each source by --site, in the order of first occurrence.
 std::vector<std::size_t> siteNumbers(const std::vector<std::string>& names, std::size_t sources) {
   if (!names.empty() && names.size() != sources)
@@ -94,6 +110,7 @@ int runRecalibrate(const Arguments& arguments, Console& console) {
   if (!arguments.has("json")) return 0;
   Json json = trainSummary(model, bytes);
   json["priors"] = priorSummary(report.priors);
+  json["panoramas"] = panoramaSummary(model);
   urban_nav_core::writeAtomically(arguments.get("json"), json.print());
   return 0;
 }
