@@ -5,7 +5,6 @@
   const SHOWN_POINTS = 3e6, // at rest
     KEPT_POINTS = 2 * SHOWN_POINTS, // in memory
     FRAME_MS = 120, // for drawing: with the rest of a frame, the view follows at more than 5 frames/s
-    REST_MS = 100, // without motion before more is drawn
     AT_ONCE = 4, // requests
     LEAST_GAP = 0.5; // px: two points a pixel, so that surfaces at an angle have no holes
 
@@ -58,7 +57,7 @@
       if (!this.frame || this.frame.key !== key) {
         const given = {planes: nav.viewPlanes(view.matrix), eye: view.eye, focal: view.focal, least: LEAST_GAP},
           wanted = nav.selectTiles(this.list.tiles, this.middles, given, SHOWN_POINTS);
-        this.frame = {key, view, wanted, drawn: new Set(), points: 0, begun: performance.now()};
+        this.frame = {key, view, wanted, drawn: new Set(), points: 0};
         this.points.begin(view.matrix);
         this.around.before();
         for (const tile of wanted) if (this.loaded.has(tile)) this.loaded.get(tile).used = ++this.clock;
@@ -87,21 +86,13 @@
       dataset.complete = frame.wanted.every((tile) => frame.drawn.has(tile) || this.failed.has(tile)) ? "1" : "0";
       if (frame.wanted.some((tile) => !frame.drawn.has(tile) && loaded.has(tile))) this.again();
     }
-    /** Draws more of the same view once it rests. */
     again() {
-      if (this.asked || !this.frame) return;
+      if (this.asked) return;
       this.asked = true;
-      const rest = () => REST_MS - (performance.now() - this.frame.begun);
-      setTimeout(
-        () =>
-          requestAnimationFrame(() => {
-            this.asked = false;
-            if (!this.frame) return;
-            if (rest() > 0) this.again();
-            else this.draw(this.frame.view);
-          }),
-        Math.max(0, rest()),
-      );
+      requestAnimationFrame(() => {
+        this.asked = false;
+        if (this.frame) this.draw(this.frame.view);
+      });
     }
     loadSome() {
       for (const tile of this.frame ? this.frame.wanted : []) {
