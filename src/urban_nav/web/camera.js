@@ -22,6 +22,17 @@
       return [right, up, back];
     }
 
+    /** Position of the camera, m. */
+    eye() {
+      const back = this.axes()[2];
+      return this.centre.map((c, k) => c + this.distance * back[k]);
+    }
+
+    /** Focal length in px, for an image of this height. */
+    focal(height) {
+      return (FOCAL * height) / 2;
+    }
+
     /** The matrix by which WebGL projects, column by column. `reach`: diameter of what is to be seen. */
     matrix(width, height, reach) {
       const [x, y, z] = this.axes(),

@@ -16,11 +16,12 @@
     wanted = 0,
     nextPick = "t1",
     now = null,
-    points = null,
     shifts = null,
     compared = null,
     places = {};
-  const view = new nav.PointView(byId("points"));
+  const view = new nav.TileView(new nav.PointView(byId("points"), {preserveDrawingBuffer: true}), (tile) =>
+    server.bytes(`/api/tile?set=${tile.set}&tile=${tile.name}`),
+  );
 
   // State of the page
 
@@ -76,7 +77,7 @@
         if (place) marks.push({at: place, text: name.slice(1), colour: palette.pick});
       }
       if (now) marks.push({at: nav.placeOf(paths, now), text: "", colour: palette.a});
-      view.draw(matrix());
+      view.draw({matrix: matrix(), eye: camera.eye(), focal: camera.focal(byId("lines").clientHeight)});
       nav.drawPlan(
         byId("lines"),
         matrix(),
@@ -112,30 +113,38 @@
     showView(name, moment);
     draw();
   };
-  const paint = () => {
-    byId("colour").disabled = !points || points.count === 0;
-    if (points) view.setColours(nav.colourPoints(points, byId("colour").value, nav.sessionColours));
-    draw();
-  };
   let loadingPoints = false,
     pointsRevision = 0;
   /** Points come after the lists and paths, and follow the poses: nothing waits for them. */
   const loadPoints = async () => {
-    if (loadingPoints || !view.gl) return;
+    if (loadingPoints || !view.points.gl) return;
     loadingPoints = true;
     try {
       while (pointsRevision !== state.revision) {
-        pointsRevision = state.revision;
-        const bytes = await server.bytes("/api/points");
-        points = nav.readPoints(bytes, state.sessions, shifts);
-        view.setPlaces(points);
-        paint();
+        const {revision, sessions} = state,
+          [json, bytes] = await Promise.all([server.json("/api/tiles"), server.bytes("/api/moves")]);
+        if (revision !== state.revision) continue;
+        pointsRevision = revision;
+        const list = nav.readTileList(json);
+        if (!view.list || JSON.stringify(view.list.sets) !== JSON.stringify(list.sets)) view.setList(list);
+        view.place(nav.tilePlacement(list.sets, nav.readMoves(bytes, list.sets), sessions, shifts), nav.sessionColours);
+        byId("colour").disabled = list.tiles.length === 0;
+        byId("points").dataset.revision = revision;
+        draw();
       }
     } catch (error) {
       byId("colour").title = error.message;
     } finally {
       loadingPoints = false;
     }
+  };
+  /** The moment at which the point of a tile below the pointer was measured; null without one. */
+  const pickPoint = (...at) => {
+    const found = view.pick(...at);
+    if (!found) return null;
+    const {points, i} = found,
+      session = points.owner[i];
+    return {session, seconds: paths[session].times[points.poses[i]], place: nav.pointAt(points, i)};
   };
 
   // Closures and edits
@@ -428,11 +437,14 @@
   nav.steer(byId("lines"), camera, draw, (x, y) => {
     if (!box) return;
     const at = [matrix(), byId("lines").clientWidth, byId("lines").clientHeight, x, y];
-    const met = nav.pickInPlan(...at, paths, drawnClosures()) || (points && nav.pickPoint(points, ...at));
+    const met = nav.pickInPlan(...at, paths, drawnClosures()) || pickPoint(...at);
     if (met && met.closure !== undefined) select(met.closure);
     else if (met) pick(nextPick, met);
   });
-  byId("colour").addEventListener("change", paint);
+  byId("colour").addEventListener("change", () => {
+    view.colour(byId("colour").value);
+    draw();
+  });
   byId("why-here").addEventListener("click", whyHere);
   byId("try").addEventListener("click", tryMeasurement);
   byId("explanation").addEventListener("click", (event) => {

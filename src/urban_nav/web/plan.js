@@ -4,7 +4,8 @@
 ((nav) => {
   nav.sessionColours = ["#1f6feb", "#d9480f", "#0c8599", "#9c36b5", "#5c940d", "#e67700", "#c2255c", "#495057"];
   const MOST_DRAWN = 20000, // poses of all paths in an image
-    MOST_LINES = 600; // from poses to their positions in another map
+    MOST_LINES = 600, // from poses to their positions in another map
+    LEAST_STEP = 2; // px: browsers take seconds for wide lines with many corners in one pixel
 
   /** Positions of all sessions from the bytes of the server: maps that nothing joins lie side by side along x. Returns
    * {times, points} of each session in the order of the state, and the box around all. */
@@ -129,6 +130,14 @@
     return best;
   };
 
+  /** Continues a line to the next point of a path, or begins one after a gap; `p`: null in a gap. Returns where it ends. */
+  const lineTo = (draw, before, p) => {
+    if (p && before && Math.hypot(p[0] - before[0], p[1] - before[1]) < LEAST_STEP) return before;
+    if (p && before) draw.lineTo(p[0], p[1]);
+    else if (p) draw.moveTo(p[0], p[1]);
+    return p;
+  };
+
   /** Draws where another map has the paths, dashed, and lines from there to some of their poses. */
   const drawCompared = (draw, at, shown, stride) => {
     const most = shown.paths.reduce((sum, path) => sum + path.times.length, 0),
@@ -147,11 +156,7 @@
       };
       let before = null;
       draw.lineWidth = 1.5;
-      trace(stride, [5, 4], (p) => {
-        if (p && before) draw.lineTo(p[0], p[1]);
-        else if (p) draw.moveTo(p[0], p[1]);
-        before = p;
-      });
+      trace(stride, [5, 4], (p) => (before = lineTo(draw, before, p)));
       draw.lineWidth = 1;
       trace(each, [], (p, i) => {
         const q = p && at(pointOf(here, i));
@@ -168,7 +173,7 @@
     const scale = globalThis.devicePixelRatio || 1,
       width = canvas.clientWidth,
       height = canvas.clientHeight,
-      draw = canvas.getContext("2d");
+      draw = canvas.getContext("2d", {willReadFrequently: true}); // without the GPU: lines by software GL take seconds
     if (canvas.width !== Math.round(width * scale) || canvas.height !== Math.round(height * scale)) {
       canvas.width = Math.round(width * scale);
       canvas.height = Math.round(height * scale);
@@ -184,12 +189,7 @@
       draw.strokeStyle = nav.sessionColours[session % nav.sessionColours.length];
       draw.beginPath();
       let before = null;
-      for (let i = 0; i < path.times.length; i += stride) {
-        const p = at(pointOf(path, i));
-        if (p && before) draw.lineTo(p[0], p[1]);
-        else if (p) draw.moveTo(p[0], p[1]);
-        before = p;
-      }
+      for (let i = 0; i < path.times.length; i += stride) before = lineTo(draw, before, at(pointOf(path, i)));
       draw.stroke();
     });
     if (shown.compared) drawCompared(draw, at, shown, stride);

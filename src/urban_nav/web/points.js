@@ -2,8 +2,6 @@
 // Points of the map: encoding, colours, and drawing by WebGL. Without WebGL no points are drawn.
 "use strict";
 ((nav) => {
-  const BYTES = 24, // per point: x, y, z, seconds (float32), session (uint16), sensor, sigma, red, green, blue, reflectance
-    LAYOUT = {stride: BYTES, sensor: 18, sigma: 19, red: 20, reflectance: 23};
   const LINE = [0.86, 0.16, 0.16, 1]; // red, green, blue, opacity
   const KINDS = [
     [214, 96, 77],
@@ -18,32 +16,19 @@
   /** From blue over green to red, for 0 to 1. */
   nav.ramp = (t) => [3, 2, 1].map((k) => 255 * Math.min(1, Math.max(0, 1.5 - Math.abs(4 * t - k))));
 
-  /** Points from the bytes of the server; the maps of their sessions are moved along x as their paths are. */
-  nav.readPoints = (bytes, sessions, shifts) => {
-    const count = Math.floor(bytes.byteLength / BYTES),
-      view = new DataView(bytes),
-      places = new Float32Array(3 * count),
-      times = new Float32Array(count),
-      owner = new Uint16Array(count);
-    for (let i = 0; i < count; ++i) {
-      const at = BYTES * i;
-      for (let k = 0; k < 3; ++k) places[3 * i + k] = view.getFloat32(at + 4 * k, true);
-      times[i] = view.getFloat32(at + 12, true);
-      owner[i] = view.getUint16(at + 16, true);
-      if (sessions[owner[i]]) places[3 * i] += shifts.get(sessions[owner[i]].map) || 0;
-    }
-    return {count, places, times, owner, values: new Uint8Array(bytes), layout: LAYOUT};
+  /** Heights between which nearly all points lie, m. */
+  nav.heightRange = ({count, places}) => {
+    const heights = Float32Array.from({length: count}, (_, i) => places[3 * i + 2]).sort();
+    return [heights[count >> 6] || 0, heights[count - 1 - (count >> 6)] || 1];
   };
 
   /** The ways of colouring points: functions by name, from the index of a point to red, green, blue. What the points hold
-   * decides which there are; `layout` has the offsets of the values of a point. */
-  nav.colourModes = (points, sessionColours) => {
-    const {count, places, owner, values, layout} = points,
+   * decides which there are; `layout` has the offsets of the values of a point. `range`: of heights, from blue to red. */
+  nav.colourModes = (points, sessionColours, range = nav.heightRange(points)) => {
+    const {places, owner, values, layout} = points,
       at = (i, name) => values[layout.stride * i + layout[name]],
-      kind = (value) => KINDS[value % KINDS.length];
-    const heights = Float32Array.from({length: count}, (_, i) => places[3 * i + 2]).sort(),
-      floor = heights[count >> 6] || 0,
-      roof = heights[count - 1 - (count >> 6)] || 1;
+      kind = (value) => KINDS[value % KINDS.length],
+      [floor, roof] = range;
     const rgb = sessionColours.map((hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16)));
     const modes = {
       pictures: (i) => [0, 1, 2].map((k) => values[layout.stride * i + layout.red + k]),
@@ -69,35 +54,41 @@
     }
     return colours;
   };
-  nav.colourPoints = (points, mode, sessionColours) =>
-    nav.paintPoints(points.count, nav.colourModes(points, sessionColours)[mode]);
+  nav.colourPoints = (points, mode, sessionColours, range) => {
+    const {count, values, layout} = points;
+    if (mode !== "pictures" && mode !== "reflectance")
+      return nav.paintPoints(count, nav.colourModes(points, sessionColours, range)[mode]);
+    const colours = new Uint8Array(4 * count), // the same as by colourModes(), without a call for each point
+      step = mode === "pictures" ? 1 : 0,
+      first = mode === "pictures" ? layout.red : layout.reflectance;
+    for (let i = 0; i < count; ++i)
+      for (let k = 0; k < 3; ++k) colours[4 * i + k] = values[layout.stride * i + first + step * k];
+    return colours;
+  };
 
-  /** The index of the nearest point within 6 px of a place in the picture; -1 without one. */
-  nav.pickIndex = (points, m, width, height, x, y) => {
-    let best = -1,
-      least = Infinity;
-    for (let i = 0; i < points.count; ++i) {
-      const at = nav.project(m, points.places.subarray(3 * i, 3 * i + 3), width, height),
-        off = at ? Math.hypot(at[0] - x, at[1] - y) : Infinity;
-      if (off < 6 && at[2] + 0.2 * off < least) {
-        least = at[2] + 0.2 * off;
+  /** The nearest point within 6 px of a place in the picture, {i, distance}; null without one nearer than `least`. */
+  nav.pickNearest = ({count, places}, m, width, height, x, y, least = Infinity) => {
+    let best = -1;
+    for (let i = 0; i < count; ++i) {
+      const [px, py, pz] = [places[3 * i], places[3 * i + 1], places[3 * i + 2]],
+        w = m[3] * px + m[7] * py + m[11] * pz + m[15];
+      if (!(w > 0) || w >= least) continue;
+      const u = ((1 + (m[0] * px + m[4] * py + m[8] * pz + m[12]) / w) * width) / 2 - x,
+        v = ((1 - (m[1] * px + m[5] * py + m[9] * pz + m[13]) / w) * height) / 2 - y,
+        off = Math.hypot(u, v);
+      if (off < 6 && w + 0.2 * off < least) {
+        least = w + 0.2 * off;
         best = i;
       }
     }
-    return best;
+    return best < 0 ? null : {i: best, distance: least};
   };
+  nav.pickIndex = (...at) => (nav.pickNearest(...at) || {i: -1}).i;
   nav.pointAt = (points, i) => [...points.places.subarray(3 * i, 3 * i + 3)];
-
-  /** The same as {session, seconds, place}, or null. */
-  nav.pickPoint = (points, ...at) => {
-    const i = nav.pickIndex(points, ...at);
-    return i < 0 ? null : {session: points.owner[i], seconds: points.times[i], place: nav.pointAt(points, i)};
-  };
 
   nav.PointView = class {
     constructor(canvas, options = {}) {
       this.canvas = canvas;
-      this.count = 0;
       this.lines = [];
       this.gl = canvas.getContext("webgl", {antialias: false, ...options});
       if (!this.gl) return;
@@ -120,17 +111,18 @@
       );
       gl.linkProgram(program);
       gl.useProgram(program);
-      this.at = (name) => gl.getAttribLocation(program, name);
-      this.uniform = (name) => gl.getUniformLocation(program, name);
-      this.placed = gl.createBuffer();
-      this.coloured = gl.createBuffer();
+      const attributes = Object.fromEntries(["p", "c"].map((name) => [name, gl.getAttribLocation(program, name)])),
+        uniforms = Object.fromEntries(["m", "px"].map((name) => [name, gl.getUniformLocation(program, name)]));
+      this.at = (name) => attributes[name];
+      this.uniform = (name) => uniforms[name];
     }
-    setPlaces(points) {
-      this.count = points.count;
-      if (this.gl) this.fill(this.placed, points.places);
+    /** Room for so many points. */
+    makeCloud(count) {
+      return {count, placed: this.gl.createBuffer(), coloured: this.gl.createBuffer()};
     }
-    setColours(colours) {
-      if (this.gl) this.fill(this.coloured, colours);
+    removeCloud({placed, coloured}) {
+      this.gl.deleteBuffer(placed);
+      this.gl.deleteBuffer(coloured);
     }
     /** Lines through x, y, z of points, drawn over the points. */
     setLines(lines) {
@@ -142,11 +134,10 @@
       this.gl.bindBuffer(this.gl.ARRAY_BUFFER, buffer);
       this.gl.bufferData(this.gl.ARRAY_BUFFER, content, this.gl.STATIC_DRAW);
     }
-    /** Draws with a matrix for the size of the canvas on the page. */
-    draw(matrix) {
-      const {gl, canvas} = this;
-      if (!gl) return;
-      const scale = globalThis.devicePixelRatio || 1,
+    /** Begins a picture, with a matrix for the size of the canvas on the page. */
+    begin(matrix) {
+      const {gl, canvas} = this,
+        scale = globalThis.devicePixelRatio || 1,
         width = Math.max(1, Math.round(scale * canvas.clientWidth)),
         height = Math.max(1, Math.round(scale * canvas.clientHeight));
       if (canvas.width !== width || canvas.height !== height) {
@@ -156,19 +147,25 @@
       gl.viewport(0, 0, width, height);
       gl.clearColor(0, 0, 0, 0);
       gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-      if (this.count === 0 && this.lines.length === 0) return;
       gl.enable(gl.DEPTH_TEST);
       gl.uniformMatrix4fv(this.uniform("m"), false, matrix);
       gl.uniform1f(this.uniform("px"), 0.05 * height);
+    }
+    drawCloud({count, placed, coloured}) {
+      const {gl} = this;
       for (const [name, buffer, size, type, normalised] of [
-        ["p", this.placed, 3, gl.FLOAT, false],
-        ["c", this.coloured, 4, gl.UNSIGNED_BYTE, true],
+        ["p", placed, 3, gl.FLOAT, false],
+        ["c", coloured, 4, gl.UNSIGNED_BYTE, true],
       ]) {
         gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
         gl.enableVertexAttribArray(this.at(name));
         gl.vertexAttribPointer(this.at(name), size, type, normalised, 0, 0);
       }
-      gl.drawArrays(gl.POINTS, 0, this.count);
+      gl.drawArrays(gl.POINTS, 0, count);
+    }
+    drawLines() {
+      const {gl} = this;
+      gl.enableVertexAttribArray(this.at("p"));
       gl.disableVertexAttribArray(this.at("c"));
       gl.vertexAttrib4f(this.at("c"), ...LINE);
       for (const line of this.lines) {
@@ -176,6 +173,10 @@
         gl.vertexAttribPointer(this.at("p"), 3, gl.FLOAT, false, 0, 0);
         gl.drawArrays(gl.LINE_STRIP, 0, line.count);
       }
+    }
+    /** Waits until everything is drawn: reading a pixel does, unlike gl.finish(). */
+    finish() {
+      this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, new Uint8Array(4));
     }
   };
 })((globalThis.urbanNav ??= {}));

@@ -31,6 +31,55 @@
 
   const decode = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 
+  const waiting = new Map(); // functions that take the text of a tile, by its name
+  /** Takes a tile from its script next to the report. */
+  nav.takeTile = (name, text) => {
+    if (waiting.has(name)) waiting.get(name)(text);
+    waiting.delete(name);
+  };
+  const loadScript = (folder, number, tile) =>
+    new Promise((resolve, reject) => {
+      waiting.set(`${number}/${tile.name}`, resolve);
+      const script = document.createElement("script");
+      script.onerror = reject;
+      script.onload = () => script.remove();
+      script.src = `${folder}/${number}_${tile.name.replace(/[/,]/g, "_")}.js`;
+      document.head.append(script);
+    });
+  const unpack = (text) =>
+    new Response(new Blob([decode(text)]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
+
+  /** The finer levels next to the report, of which an element holds the list: a view of tiles; null without a list. */
+  const finerLevels = (element, view, around, missing) => {
+    const script = element.querySelector('script[type="application/json"]');
+    if (!script || !globalThis.DecompressionStream) return null;
+    const {folder, number} = script.dataset,
+      tileBytes = (tile) => loadScript(folder, number, tile).then(unpack),
+      finer = new nav.TileView(
+        view,
+        (tile) =>
+          tileBytes(tile).catch((error) => {
+            missing();
+            throw error;
+          }),
+        around,
+      ),
+      list = nav.readTileList({sets: [JSON.parse(script.textContent)]}),
+      none = list.sets.map(({sessions}) => sessions.map(() => null));
+    finer.setList(list);
+    finer.place(
+      nav.tilePlacement(
+        list.sets,
+        none,
+        list.sets[0].sessions.map((id) => ({id, map: 0})),
+        new Map(),
+      ),
+      [],
+    );
+    return finer;
+  };
+  const TILE_MODES = ["pictures", "reflectance", "height", "sensor", "sigma"]; // tiles hold no more
+
   /** Draws the map of an element that the report holds, and lets other parts of the report add colours to it. */
   nav.showReportMap = (element) => {
     const canvas = element.querySelector("canvas"),
@@ -52,12 +101,27 @@
     const centre = low.map((v, k) => v + size[k] * (k < 2 ? 0.5 : 0.2)),
       camera = new nav.Camera(centre, 0.7 * Math.hypot(size[0], size[1]));
     const matrix = () => camera.matrix(canvas.clientWidth, canvas.clientHeight, Math.hypot(...size)),
-      draw = () => view.draw(matrix()),
+      cloud = view.makeCloud(points.count),
+      before_tiles = () => (finer && finer.loaded.size > 0) || view.drawCloud(cloud),
+      draw = () => {
+        if (finer && TILE_MODES.includes(choice.value)) {
+          finer.draw({matrix: matrix(), eye: camera.eye(), focal: camera.focal(canvas.clientHeight)});
+          return;
+        }
+        view.begin(matrix());
+        view.drawCloud(cloud);
+        view.drawLines();
+      },
       paint = () => {
-        view.setColours(nav.paintPoints(points.count, modes[choice.value]));
+        view.fill(cloud.coloured, nav.paintPoints(points.count, modes[choice.value]));
+        if (finer && TILE_MODES.includes(choice.value)) finer.colour(choice.value);
         draw();
       };
-    view.setPlaces(points);
+    let finer = finerLevels(element, view, {before: before_tiles, after: () => view.drawLines()}, () => {
+      finer = null; // the folder is not there, or not all of it
+      draw();
+    });
+    view.fill(cloud.placed, points.places);
     view.setLines(JSON.parse(dataset.paths));
     let before = null;
     nav.steer(canvas, camera, draw, (x, y) => {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <map>
 
 #include "base/console.hpp"
 #include "base/parameters.hpp"
 #include "base/plot.hpp"
+#include "base/scratch_folder.hpp"
 #include "edits/edits.hpp"
 #include "edits/verification.hpp"
 #include "map/map_command.hpp"
@@ -22,31 +22,11 @@
 
 namespace urban_nav {
 
-namespace fs = std::filesystem;
 using urban_nav_core::UserError;
 using urban_nav_store::Access;
 using urban_nav_store::Store;
 
 namespace {
-
-/// A temporary folder, removed with this object.
-class ScratchFolder {
- public:
-  ScratchFolder() : path_((fs::temp_directory_path() / "urban_nav-XXXXXX").string()) {
-    if (::mkdtemp(path_.data()) == nullptr)
-      throw UserError(path_, "cannot be made", "a folder for temporary files (TMPDIR) that can be written");
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
 
 /// Returns the lines of a text.
 std::vector<std::string> splitLines(const std::string& text) {

@@ -189,10 +189,10 @@ namespace {
 constexpr StampNs kSecond = 1'000'000'000;
 
 /// Tables omitted from a release: data needed only for a later relaxation, another run on the same recording or the
-/// colours of the map.
+/// colours of the map, and tiles, which refer to poses that a release does not keep.
 const std::set<std::string>& leftOutTables() {
-  static const std::set<std::string> names = {"panorama", "camera",     "input",       "parameter",
-                                              "evidence", "graph_file", "edge_number", "edit"};
+  static const std::set<std::string> names = {"panorama",   "camera",      "input", "parameter", "evidence",
+                                              "graph_file", "edge_number", "edit",  "tile"};
   return names;
 }
 

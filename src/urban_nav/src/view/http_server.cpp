@@ -141,6 +141,7 @@ class HttpServer::Implementation {
   void fill(httplib::Response& response, HttpAnswer answer) {
     response.status = answer.status;
     if (!answer.stream) {
+      if (answer.is_zlib) response.set_header("Content-Encoding", "deflate");
       response.set_content(answer.body, answer.type);
       return;
     }

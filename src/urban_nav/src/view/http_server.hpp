@@ -27,6 +27,7 @@ struct HttpAnswer {
   int status = 200;
   std::string type = "text/plain; charset=utf-8";
   std::string body;
+  bool is_zlib = false;  ///< `body` is zlib data, which the browser unpacks
   /// For a streamed answer: called repeatedly for the next part, and may block for about a second; empty text is a
   /// pause, false the end. Null: the answer is `body`.
   std::function<bool(std::string& next)> stream = {};

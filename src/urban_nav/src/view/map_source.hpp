@@ -8,6 +8,7 @@
 
 #include "base/json.hpp"
 #include "view/edit_words.hpp"
+#include "view/shown_tiles.hpp"
 
 namespace urban_nav {
 
@@ -27,8 +28,12 @@ class MapSource {
   virtual std::string paths() = 0;
   /// Returns the positions of the poses of paths() in another map, in the encoding of ComparedMap; empty without one.
   virtual std::string comparedPlaces() = 0;
-  /// Returns points of the maps in the encoding of MapPoints; empty without any.
-  virtual std::string points() = 0;
+  /// Returns the tiles of the points of the maps, as ShownTiles::list(), without sets if there are no points.
+  virtual Json tiles(const TileSelection& selection) = 0;
+  /// Returns the points of a tile, as ShownTiles::tile(); nullopt if there is no such tile.
+  virtual std::optional<std::string> tile(std::size_t set, const laser_mapper::LevelTile& tile) = 0;
+  /// Returns the motion of the poses since the points were rendered, as ShownTiles::moves().
+  virtual std::string moves() = 0;
   /// Returns the closures that determine the pose at a moment, given as for `why --jump`.
   virtual Json explainMoment(const std::string& moment) = 0;
   /// Returns the explanation of the verdict on a closure.

@@ -47,6 +47,24 @@ double secondsIn(const HttpRequest& request) {
   return *seconds;
 }
 
+/// Returns the tiles that a request selects: all without `extent` and `budget`.
+TileSelection selectionIn(const HttpRequest& request) {
+  TileSelection selection;
+  if (!request.parameter("budget").empty()) selection.budget = static_cast<std::uint64_t>(numberIn(request, "budget"));
+  if (request.parameter("extent").empty()) return selection;
+  selection.extent.emplace();
+  const std::string text = wordIn(request, "extent");
+  const std::vector<std::string_view> words = urban_nav_core::splitAt(text, ',');
+  const UserError wrong("extent", text + " is not an extent", "extent=X0,Y0,X1,Y1 (m) in the address");
+  if (words.size() != selection.extent->size()) throw wrong;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto number = urban_nav_core::parseNumber(words[i]);
+    if (!number || !std::isfinite(*number)) throw wrong;
+    (*selection.extent)[i] = *number;
+  }
+  return selection;
+}
+
 /// Returns a JPEG; status 204 without one.
 HttpAnswer asPicture(const std::optional<std::string>& jpeg) {
   return jpeg ? HttpAnswer{200, "image/jpeg", *jpeg} : HttpAnswer{204, "image/jpeg", ""};
@@ -69,7 +87,7 @@ std::string viewPage() {
   replaceFirst(page, "<!-- scripts -->",
                "<script nonce=\"" + nonce + "\">" +
                    webFiles({"camera.js", "text.js", "server.js", "lists.js", "explanation.js", "plan.js", "points.js",
-                             "page.js"}) +
+                             "tiles.js", "tile_view.js", "page.js"}) +
                    "</script>");
   return page;
 }
@@ -91,7 +109,9 @@ HttpAnswer PageRoutes::get(const HttpRequest& request) const {
   if (request.path == "/api/state") return asJson(source_.state());
   if (request.path == "/api/paths") return {200, "application/octet-stream", source_.paths()};
   if (request.path == "/api/compared") return {200, "application/octet-stream", source_.comparedPlaces()};
-  if (request.path == "/api/points") return {200, "application/octet-stream", source_.points()};
+  if (request.path == "/api/tiles") return asJson(source_.tiles(selectionIn(request)).print());
+  if (request.path == "/api/tile") return tile(request);
+  if (request.path == "/api/moves") return {200, "application/octet-stream", source_.moves()};
   if (request.path == "/api/moment") return asJson(source_.explainMoment(wordIn(request, "t")).print());
   if (request.path == "/api/why") return asJson(source_.explain(numberIn(request, "id")).print());
   if (request.path == "/api/view")
@@ -103,6 +123,16 @@ HttpAnswer PageRoutes::get(const HttpRequest& request) const {
   if (request.path == "/api/now") return asJson(asData(events_.state()));
   if (request.path == "/api/events" && request.method == "GET") return follow();
   return notThere();
+}
+
+HttpAnswer PageRoutes::tile(const HttpRequest& request) const {
+  const auto name = laser_mapper::parseLevelTile(wordIn(request, "tile"));
+  if (!name) throw UserError("tile", "is not level/x,y", "a tile of /api/tiles");
+  std::optional<std::string> packed = source_.tile(static_cast<std::size_t>(numberIn(request, "set")), *name);
+  if (!packed) return notThere();
+  HttpAnswer answer{200, "application/octet-stream", std::move(*packed)};
+  answer.is_zlib = true;
+  return answer;
 }
 
 HttpAnswer PageRoutes::post(const HttpRequest& request) const {

@@ -19,6 +19,7 @@ class PageRoutes {
 
  private:
   HttpAnswer get(const HttpRequest& request) const;
+  HttpAnswer tile(const HttpRequest& request) const;
   HttpAnswer post(const HttpRequest& request) const;
   HttpAnswer follow() const;
 

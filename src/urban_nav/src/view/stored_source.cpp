@@ -31,7 +31,7 @@ using urban_nav_store::StoredTrajectory;
 
 namespace {
 
-constexpr double kPointsImageShare = 0.1;      // share of memory_mb for decoded images
+constexpr double kTileImageShare = 0.1;        // share of memory_mb for decoded images
 constexpr std::size_t kKeptExplanations = 20;  // with their pictures, about 0.1 MB each
 
 constexpr std::int64_t kTried = 0;  // closures of a store have IDs from 1
@@ -142,16 +142,28 @@ std::string StoredSource::paths() {
   });
 }
 
-std::string StoredSource::points() {
+std::shared_ptr<ShownTiles> StoredSource::shownTiles() {
   const std::lock_guard lock(loading_);
-  const MapPoints::Maps maps = reading([](const Content& content) { return content.maps; });
-  if (!points_) {
+  if (!tiles_) {
+    const ShownTiles::Maps maps = reading([](const Content& content) { return content.maps; });
     const double memory_mb =
-        kPointsImageShare * loadParameters(Arguments(options_, tables_)).get(commandTable()).memory_mb;
-    Store store = urban_nav_store::openForReading(path_);  // a separate handle, since colours may take minutes
-    points_.emplace(store, maps, memory_mb);
+        kTileImageShare * loadParameters(Arguments(options_, tables_)).get(commandTable()).memory_mb;
+    Store store = urban_nav_store::openForReading(path_);  // a separate handle, since computing tiles may take minutes
+    tiles_ = std::make_shared<ShownTiles>(store, maps, memory_mb);
   }
-  return points_->place(maps);
+  return tiles_;
+}
+
+Json StoredSource::tiles(const TileSelection& selection) { return shownTiles()->list(selection); }
+
+std::optional<std::string> StoredSource::tile(std::size_t set, const laser_mapper::LevelTile& tile) {
+  const std::shared_ptr<ShownTiles> shown = shownTiles();
+  return reading([&](Content& content) { return shown->tile(content.store, set, tile); });
+}
+
+std::string StoredSource::moves() {
+  const std::shared_ptr<ShownTiles> shown = shownTiles();
+  return shown->moves(reading([](const Content& content) { return content.maps; }));
 }
 
 Json StoredSource::explainMoment(const std::string& moment) {
@@ -256,7 +268,7 @@ void StoredSource::poll() {
   content_.reset();
   events_.changed();
   const std::unique_lock loading(loading_, std::try_to_lock);
-  if (loading) points_.reset();
+  if (loading) tiles_.reset();
 }
 
 Json pageAsJson(const Page& page) {

@@ -12,9 +12,9 @@
 #include "topics/loops/stored_closure.hpp"
 #include "urban_nav_store/store.hpp"
 #include "view/compared_map.hpp"
-#include "view/map_points.hpp"
 #include "view/map_source.hpp"
 #include "view/page_events.hpp"
+#include "view/shown_tiles.hpp"
 
 namespace urban_nav {
 
@@ -32,7 +32,9 @@ class StoredSource final : public MapSource {
   std::string state() override;
   std::string paths() override;
   std::string comparedPlaces() override;
-  std::string points() override;
+  Json tiles(const TileSelection& selection) override;
+  std::optional<std::string> tile(std::size_t set, const laser_mapper::LevelTile& tile) override;
+  std::string moves() override;
   Json explain(std::int64_t closure) override;
   Json explainMoment(const std::string& moment) override;
   std::optional<std::string> view(std::size_t session, double seconds) override;
@@ -49,6 +51,7 @@ class StoredSource final : public MapSource {
   const Page& explanation(std::int64_t closure);
   double cloudHalfLength() const;
   std::string filesState() const;
+  std::shared_ptr<ShownTiles> shownTiles();
   Arguments edgeArguments(const EditWords& words) const;
   template <typename Read>
   auto reading(const Read& read);
@@ -63,7 +66,7 @@ class StoredSource final : public MapSource {
   std::optional<ComparedMap> compared_;
   std::string seen_;    ///< size and time of the files and their logs
   std::mutex loading_;  ///< guards the following members; locked before mutex_
-  std::optional<MapPoints> points_;
+  std::shared_ptr<ShownTiles> tiles_;
 };
 
 /// Returns the content of a page as JSON, without markup; pictures by their numbers, in order.

@@ -12,6 +12,7 @@
 #include "edits/edge_list.hpp"
 #include "urban_nav_input/testing/folders.hpp"
 #include "view/served_store.hpp"
+#include "view/tiled_store.hpp"
 
 namespace urban_nav {
 namespace {
@@ -27,11 +28,11 @@ constexpr int kManyClosures = 10'000;
 
 /// Runs a part of the script on a page; returns its exit status and what it printed.
 std::pair<int, std::string> clickThrough(const std::string& part, const ServedStore& served,
-                                         const TemporaryFolder& folder) {
+                                         const TemporaryFolder& folder, const std::string& words = "") {
   const std::string script = (std::filesystem::path(__FILE__).parent_path() / "page_clicks.py").string();
   const std::string log = folder.file("clicks.log");
-  const int status =
-      std::system(("python3 '" + script + "' " + part + " '" + served.address() + "' >'" + log + "' 2>&1").c_str());
+  const int status = std::system(
+      ("python3 '" + script + "' " + part + " '" + served.address() + "' " + words + " >'" + log + "' 2>&1").c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readFile(log)};
 }
 
@@ -82,6 +83,17 @@ TEST(PageInABrowser, ShowsTenThousandClosures) {
   }
   const ServedStore served(path, true);
   const auto [status, text] = clickThrough("many", served, folder);
+  if (status == kNotHere) GTEST_SKIP() << text;
+  EXPECT_EQ(status, 0) << text;
+}
+
+TEST(PageInABrowser, ShowsTheLevelsOfTheMapAndMovesThemAfterAnEdit) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("s.db");
+  testing::writeCircleStore(path);
+  const std::size_t points = testing::addTiles(path);
+  const ServedStore served(path);
+  const auto [status, text] = clickThrough("tiles", served, folder, std::to_string(points));
   if (status == kNotHere) GTEST_SKIP() << text;
   EXPECT_EQ(status, 0) << text;
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Drives the page of `view` in a headless Chromium:
-    page_clicks.py edits|many ADDRESS
+    page_clicks.py edits|many|tiles ADDRESS
 Exit status 77 where there is no browser to drive."""
 import shutil
 import sys
@@ -114,10 +114,48 @@ def many(browser, address):
     page.check_console()
 
 
+def tiles(browser, address):
+    page = Page(browser, address)
+    if not browser.execute_script("return document.createElement('canvas').getContext('webgl') !== null"):
+        print("no WebGL here: points are not drawn")
+        sys.exit(77)
+    shown = lambda name: browser.execute_script("return document.getElementById('points').dataset[arguments[0]]", name)
+    complete = lambda: page.wait(lambda: shown("complete") == "1", "the points are not all drawn")
+    picture = lambda: browser.execute_script("return document.getElementById('points').toDataURL()")
+    complete()
+    every = int(shown("points"))
+    assert every == int(sys.argv[3]), every
+    by_pictures = picture()
+    page.choose("#colour", "session")
+    complete()
+    assert picture() != by_pictures
+    lines = page.find("#lines")
+    browser.execute_script("arguments[0].dispatchEvent(new WheelEvent('wheel', {deltaY: 3000, bubbles: true, cancelable: true}))", lines)
+    page.wait(lambda: int(shown("points")) < every / 4, "far away, points would share their pixels")
+    complete()
+    page.key("f")
+    page.wait(lambda: int(shown("points")) == every, "the whole map again")
+    complete()
+    before = picture()
+    browser.execute_script("document.querySelector('details').open = true")
+    page.find('[data-field="t1"]').send_keys("monday+20")
+    page.find('[data-field="at"]').send_keys("-8.4,15.2,0")  # 0.3 m from where it is
+    page.click('[data-action="pin"]')
+    page.wait(lambda: shown("revision") == "2", "the points do not follow")
+    complete()
+    assert int(shown("points")) == every
+    assert picture() != before, "the map has moved"
+    page.click('[data-action="undo"]')
+    page.wait(lambda: shown("revision") == "3", "the points do not follow")
+    complete()
+    assert picture() == before, "and is back"
+    page.check_console()
+
+
 def main():
     browser = start()
     try:
-        {"edits": edits, "many": many}[sys.argv[1]](browser, sys.argv[2])
+        {"edits": edits, "many": many, "tiles": tiles}[sys.argv[1]](browser, sys.argv[2])
     finally:
         browser.quit()
 

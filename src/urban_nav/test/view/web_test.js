@@ -3,7 +3,7 @@
 "use strict";
 const assert = require("node:assert"),
   test = require("node:test");
-for (const name of ["camera", "text", "server", "lists", "explanation", "plan", "points", "report_map", "page"])
+for (const name of ["camera", "text", "server", "lists", "explanation", "plan", "points", "tiles", "tile_view", "report_map", "page"])
   require(`../../web/${name}.js`);
 const nav = globalThis.urbanNav;
 
@@ -276,37 +276,67 @@ test("a click meets the dot of a closure first, then the nearest pose, else noth
   assert.strictEqual(pick([3, 3]), null);
 });
 
-/** Bytes of points as the server sends them: [x, y, z, seconds, session, sensor, sigma, red, green, blue, reflectance]. */
-const pointBytes = (rows) => {
-  const view = new DataView(new ArrayBuffer(24 * rows.length));
-  rows.forEach((row, i) => {
-    for (let k = 0; k < 4; ++k) view.setFloat32(24 * i + 4 * k, row[k], true);
-    view.setUint16(24 * i + 16, row[4], true);
-    for (let k = 5; k < 11; ++k) view.setUint8(24 * i + 13 + k, row[k]);
+/** Bytes of a tile as the server sends them, by column: rows of [x, y, z (steps), pose, session, red, green, blue,
+ * reflectance, sensor, sigma]. */
+const tileBytes = (rows) => {
+  const widths = [3, 3, 3, 3, 2, 1, 1, 1, 1, 1, 1],
+    bytes = [];
+  widths.forEach((width, column) => {
+    for (let byte = 0; byte < width; ++byte)
+      for (const row of rows) bytes.push(((column === 2 ? row[2] + (1 << 23) : row[column]) >> (8 * byte)) & 255);
   });
+  return Uint8Array.from(bytes).buffer;
+};
+const STEP = 0.05 / 256;
+const TILE_ROWS = [
+  [0, 256, 0, 0, 0, 10, 20, 30, 40, 0, 0],
+  [65535, 0, 25600, 1, 1, 50, 60, 70, 80, 1, 255],
+  [5120, 5120, -5120, 2, 0, 90, 100, 110, 120, 255, 64],
+];
+const LIST = {
+  sets: [
+    {
+      digest: "d",
+      voxel: 0.05,
+      sessions: ["aaaaaaaaaaaaaaaa", "bbbbbbbbbbbbbbbb"],
+      tiles: [
+        "7/0,0 3 -1 5 0 2",
+        "0/0,0 100 -1 5 0 2",
+        "0/-1,0 200 -1 5 1 1",
+        "0/4,0 400 -1 5 0 0",
+      ],
+    },
+  ],
+};
+/** Bytes of moves: for each session null, or [quaternion, then, now] of each pose. */
+const moveBytes = (sessions) => {
+  const numbers = [];
+  for (const poses of sessions) {
+    numbers.push([poses ? poses.length : 0]);
+    for (const pose of poses || []) numbers.push(pose.flat());
+  }
+  const view = new DataView(new ArrayBuffer(4 * numbers.flat().length));
+  let at = 0;
+  for (const row of numbers)
+    for (const value of row) {
+      if (row.length === 1) view.setUint32(at, value, true);
+      else view.setFloat32(at, value, true);
+      at += 4;
+    }
   return view.buffer;
 };
-const POINTS = [
-  [1, 2, 0, 0.5, 0, 0, 0, 10, 20, 30, 40],
-  [2, 2, 5, 1.5, 1, 1, 255, 50, 60, 70, 80],
-  [3, 2, 2.5, 2.5, 300, 255, 64, 90, 100, 110, 120],
-];
+const still = (shifts = new Map()) => nav.tilePlacement(LIST.sets, [[null, null]], SESSIONS, shifts);
 
-test("points come with the map of their session and keep what is known of them", () => {
-  const points = nav.readPoints(
-    pointBytes(POINTS),
-    SESSIONS,
-    new Map([
-      [0, 0],
-      [1, 100],
-    ]),
-  );
+test("a tile holds the places and values of its points", () => {
+  const {tiles} = nav.readTileList(LIST),
+    points = nav.readTile(tileBytes(TILE_ROWS), tiles[2]);
+  assert.strictEqual(tiles[2].name, "0/-1,0");
   assert.strictEqual(points.count, 3);
-  close([...points.places], [1, 2, 0, 102, 2, 5, 3, 2, 2.5]);
-  close([...points.times], [0.5, 1.5, 2.5]);
-  assert.deepStrictEqual([...points.owner], [0, 1, 300]);
+  close([...points.places.slice(0, 3)], [-12.8 + 0.5 * STEP, 0.05 + 0.5 * STEP, 0.5 * STEP], 1e-6);
+  close([...points.places.slice(3)], [-0.5 * STEP, 0.5 * STEP, 5 + 0.5 * STEP, -11.8, 1, -1], 2e-4);
+  assert.deepStrictEqual([...points.poses], [0, 1, 2]);
   const colours = (mode) =>
-    [0, 1, 2].map((i) => [...nav.colourPoints(points, mode, nav.sessionColours).slice(4 * i, 4 * i + 3)]);
+    [0, 1, 2].map((i) => [...nav.colourPoints(points, mode, nav.sessionColours, [-1, 5]).slice(4 * i, 4 * i + 3)]);
   assert.deepStrictEqual(colours("pictures"), [
     [10, 20, 30],
     [50, 60, 70],
@@ -317,15 +347,83 @@ test("points come with the map of their session and keep what is known of them",
     [80, 80, 80],
     [120, 120, 120],
   ]);
+  nav.placeTile(points, tiles[2], still());
   assert.deepStrictEqual(colours("session")[0], [0x1f, 0x6f, 0xeb]);
   for (const mode of ["height", "sensor", "sigma", "session"])
     assert.notDeepStrictEqual(colours(mode)[0], colours(mode)[1], mode);
-  assert.strictEqual(nav.readPoints(new ArrayBuffer(0), SESSIONS, new Map()).count, 0);
+  const none = nav.readTile(new ArrayBuffer(0), tiles[0]);
+  assert.strictEqual(none.count, 0);
   for (const mode of ["height", "pictures"])
+    assert.strictEqual(nav.colourPoints(none, mode, nav.sessionColours).length, 0);
+});
+
+test("points follow their poses, and maps that nothing joins are shown side by side", () => {
+  const {sets, tiles} = nav.readTileList(LIST),
+    turn = [0, 0, Math.SQRT1_2, Math.SQRT1_2], // a quarter about z
+    pose = [turn, [1, 1, 0], [11, 1, 2]],
+    moves = nav.readMoves(moveBytes([null, [pose, pose]]), sets);
+  assert.strictEqual(moves[0][0], null);
+  const points = nav.readTile(tileBytes(TILE_ROWS), tiles[1]),
+    rest = [...points.rest];
+  nav.placeTile(points, tiles[1], nav.tilePlacement(sets, moves, SESSIONS, new Map([[1, 100]])));
+  close([...points.places.slice(0, 3)], rest.slice(0, 3), 1e-6);
+  const [x, y, z] = rest.slice(3, 6);
+  close([...points.places.slice(3, 6)], [11 - (y - 1) + 100, 1 + (x - 1), z + 2], 1e-4);
+  close([...points.rest], rest);
+  nav.placeTile(points, tiles[1], still());
+  close([...points.places], rest);
+  const placement = nav.tilePlacement(sets, moves, [SESSIONS[1], SESSIONS[0]], new Map());
+  assert.deepStrictEqual(placement.owners, [[1, 0]], "the page may order sessions in another way");
+  const middle = nav.tileMiddle(tiles[2], placement);
+  close([...middle], [11 - (6.4 - 1), 1 + (-6.4 - 1), 4], 1e-5);
+});
+
+test("the tiles that are seen are chosen, the coarsest and nearest first, within the budget", () => {
+  const {tiles} = nav.readTileList(LIST),
+    middles = tiles.map((tile) => nav.tileMiddle(tile, still()));
+  const choose = (camera, budget, least = 1) => {
+    const view = {
+      planes: nav.viewPlanes(camera.matrix(800, 600, 100)),
+      eye: camera.eye(),
+      focal: camera.focal(600),
+      least,
+    };
+    return nav.selectTiles(tiles, middles, view, budget).map((tile) => tile.name);
+  };
+  const above = (x, distance) => new nav.Camera([x, 6.4, 2], distance, -Math.PI / 2, Math.PI / 2);
+  assert.deepStrictEqual(choose(above(6.4, 15), 1e6).slice(0, 2), ["7/0,0", "0/0,0"]);
+  assert.ok(!choose(above(6.4, 15), 1e6).includes("0/4,0"), "outside the picture");
+  assert.strictEqual(choose(above(28, 40), 1e6).length, 4, "all are seen");
+  assert.deepStrictEqual(choose(above(6.4, 15), 3), ["7/0,0"]);
+  assert.deepStrictEqual(choose(above(6.4, 15), 0), []);
+  assert.deepStrictEqual(choose(above(30, 5000), 1e6), ["7/0,0"], "finer points would share their pixels");
+});
+
+test("the planes of a view bound what it projects into its picture", () => {
+  const camera = new nav.Camera([3, -2, 1], 20, 0.7, 0.4),
+    m = camera.matrix(800, 600, 100),
+    planes = nav.viewPlanes(m);
+  for (let i = 0; i < 400; ++i) {
+    const p = [0, 1, 2].map((k) => camera.centre[k] + 40 * (((i * (k + 2) * 0.618) % 1) - 0.5)),
+      at = nav.project(m, p, 800, 600),
+      near = 0.02 * camera.distance,
+      inside = at !== null && at[0] >= 0 && at[0] <= 800 && at[1] >= 0 && at[1] <= 600 && at[2] >= near;
     assert.strictEqual(
-      nav.colourPoints(nav.readPoints(new ArrayBuffer(0), [], new Map()), mode, nav.sessionColours).length,
-      0,
+      planes.every(([a, b, c, d]) => a * p[0] + b * p[1] + c * p[2] + d >= 0),
+      inside,
+      `${p}`,
     );
+  }
+});
+
+test("the number of points drawn at once follows the time that it takes", () => {
+  const rate = new nav.DrawingRate(100);
+  for (let i = 0; i < 20; ++i) rate.measured(rate.points(), rate.points() / 40); // 40 points/ms
+  assert.ok(Math.abs(rate.points() - 10_000) < 1e-6, "no fewer, so that something is seen");
+  for (let i = 0; i < 40; ++i) rate.measured(rate.points(), rate.points() / 2000);
+  assert.ok(Math.abs(rate.points() / 200_000 - 1) < 0.01);
+  rate.measured(10, 500);
+  assert.ok(Math.abs(rate.points() / 200_000 - 1) < 0.01, "a call without points says nothing");
 });
 
 test("points of a report are read from the ranges of their numbers", () => {
@@ -358,17 +456,76 @@ test("the colours of a ramp go from blue over green to red", () => {
   for (let t = 0; t <= 1; t += 0.01) assert.ok(nav.ramp(t).every((v) => v >= 0 && v <= 255));
 });
 
-test("a click on a point names its moment, the nearer one of two in a line", () => {
-  const points = nav.readPoints(pointBytes(POINTS), [SESSIONS[0], {...SESSIONS[1], map: 0}], new Map([[0, 0]])),
+test("a click meets the nearest point, the nearer one of two in a line", () => {
+  const points = {count: 3, places: Float32Array.from([1, 2, 0, 2, 2, 5, 7, 2, 0])},
     camera = new nav.Camera([2, 2, 2], 10, 0, 0),
     m = camera.matrix(800, 600, 50),
     at = nav.project(m, [2, 2, 5], 800, 600);
-  const met = nav.pickPoint(points, m, 800, 600, at[0] + 2, at[1]);
-  assert.strictEqual(met.session, 1);
-  assert.strictEqual(met.seconds, 1.5);
-  close(met.place, [2, 2, 5]);
-  assert.strictEqual(nav.pickPoint(points, m, 800, 600, 5, 5), null);
-  const twice = nav.readPoints(pointBytes([POINTS[0], [7, 2, 0, 9, 0, 0, 0, 0, 0, 0, 0]]), SESSIONS, new Map([[0, 0]])),
-    flat = new nav.Camera([2, 2, 0], 10, 0, 0).matrix(800, 600, 50);
-  assert.strictEqual(nav.pickPoint(twice, flat, 800, 600, 400, 300).seconds, 9, "x points at the viewer");
+  assert.strictEqual(nav.pickNearest(points, m, 800, 600, at[0] + 2, at[1]).i, 1);
+  assert.strictEqual(nav.pickNearest(points, m, 800, 600, 5, 5), null);
+  assert.strictEqual(nav.pickIndex(points, m, 800, 600, 5, 5), -1);
+  const flat = new nav.Camera([2, 2, 0], 10, 0, 0).matrix(800, 600, 50),
+    met = nav.pickNearest(points, flat, 800, 600, 400, 300);
+  assert.strictEqual(met.i, 2, "x points at the viewer");
+  close([met.distance], [5], 1e-4);
+  assert.strictEqual(nav.pickNearest(points, flat, 800, 600, 400, 300, 4), null, "another tile has a nearer one");
+});
+
+/** A PointView that counts what it is asked to draw. */
+const countingView = () => {
+  const drawn = [];
+  return {
+    drawn,
+    gl: true,
+    canvas: {clientWidth: 800, clientHeight: 600, dataset: {}},
+    begin: () => drawn.push("begin"),
+    drawCloud: ({count}) => drawn.push(count),
+    finish: () => {},
+    makeCloud: (count) => ({count}),
+    removeCloud: () => drawn.push("removed"),
+    fill: () => {},
+  };
+};
+const soon = (so) =>
+  new Promise((resolve, reject) => {
+    const begin = Date.now();
+    const look = () => {
+      if (so()) resolve();
+      else if (Date.now() - begin > 20_000) reject(new Error("it does not come about"));
+      else setTimeout(look, 5);
+    };
+    look();
+  });
+
+test("tiles are fetched and drawn once, a view that moves begins anew, and a tile that is missing is left out", async () => {
+  globalThis.requestAnimationFrame = (take) => setTimeout(take, 1);
+  const points = countingView(),
+    fetched = [],
+    view = new nav.TileView(points, async (tile) => {
+      fetched.push(tile.name);
+      if (tile.name === "0/0,0") throw new Error("not there");
+      return tileBytes(TILE_ROWS);
+    }),
+    {dataset} = points.canvas;
+  const shown = (x) => {
+    const camera = new nav.Camera([x, 6.4, 2], 40, -Math.PI / 2, Math.PI / 2);
+    return {matrix: camera.matrix(800, 600, 100), eye: camera.eye(), focal: camera.focal(600)};
+  };
+  view.draw(shown(28)); // nothing to draw yet
+  view.setList(nav.readTileList(LIST));
+  view.place(still(), nav.sessionColours);
+  view.draw(shown(28));
+  await soon(() => dataset.complete === "1");
+  assert.deepStrictEqual([...fetched].sort(), ["0/-1,0", "0/0,0", "0/4,0", "7/0,0"]);
+  assert.strictEqual(fetched[0], "7/0,0");
+  assert.strictEqual(dataset.points, 3 + 200 + 400, "as the list states them");
+  assert.deepStrictEqual(points.drawn, ["begin", 3, 3, 3]);
+  view.draw(shown(29));
+  await soon(() => dataset.complete === "1" && points.drawn.length === 8);
+  assert.strictEqual(fetched.length, 4);
+  const at = nav.project(shown(29).matrix, [0, 0.05, 0], 800, 600);
+  assert.ok(view.pick(shown(29).matrix, 800, 600, at[0], at[1]));
+  assert.strictEqual(view.pick(shown(29).matrix, 800, 600, -500, -500), null);
+  view.setList(nav.readTileList(LIST));
+  assert.strictEqual(points.drawn.filter((word) => word === "removed").length, 3);
 });

@@ -1,38 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "topics/lasers/current_rendering.hpp"
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <array>
-#include <filesystem>
 
 #include "laser_mapper/laser_map.hpp"
 #include "map/rendered_poses.hpp"
 #include "urban_nav/stored_results.hpp"
-#include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/merge.hpp"
 
 namespace urban_nav {
 
-namespace fs = std::filesystem;
 using urban_nav_store::Store;
 using urban_nav_store::StoredTrajectory;
 
 namespace {
 
 /// Tables not needed for rendering and export of points, and chunks, which are rendered again.
-constexpr std::array<const char*, 11> kLeftOut = {"chunk",      "chunk_cells", "tile_colours",  "input",
-                                                  "edge",       "evidence",    "edit",          "edge_number",
-                                                  "graph_file", "place",       "keyframe_place"};
-
-std::string makeFolder() {
-  std::string name = (fs::temp_directory_path() / "urban_nav-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr)
-    throw urban_nav_core::UserError(name, "cannot be made",
-                                    "a folder for temporary files (TMPDIR) that can be written");
-  return name;
-}
+constexpr std::array<const char*, 12> kLeftOut = {"chunk",       "chunk_cells", "tile_colours", "tile",
+                                                  "input",       "edge",        "evidence",     "edit",
+                                                  "edge_number", "graph_file",  "place",        "keyframe_place"};
 
 }  // namespace
 
@@ -41,25 +28,14 @@ CurrentRendering::CurrentRendering(Store& store, const std::vector<StoredTraject
     return laser_mapper::storedMapParameters(store, each.session.id) && isRenderingOutdated(store, each.session.id);
   });
   if (is_current) return;
-  folder_ = makeFolder();
-  try {
-    render(map);
-  } catch (...) {
-    copy_.reset();
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-    throw;
-  }
+  folder_ = std::make_unique<ScratchFolder>();
+  render(map);
 }
 
-CurrentRendering::~CurrentRendering() {
-  copy_.reset();
-  std::error_code ignored;
-  if (!folder_.empty()) fs::remove_all(folder_, ignored);
-}
+CurrentRendering::~CurrentRendering() = default;
 
 void CurrentRendering::render(const std::vector<StoredTrajectory>& map) {
-  const std::string path = folder_ + "/session.db";
+  const std::string path = folder_->file("session.db");
   urban_nav_store::copyRows(
       store_.path(), path, [&](const urban_nav_store::Table& table, const std::vector<urban_nav_store::Value>& key) {
         if (std::find(kLeftOut.begin(), kLeftOut.end(), table.name) != kLeftOut.end()) return false;

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
+#include "base/scratch_folder.hpp"
 #include "urban_nav_store/stored_map.hpp"
 
 namespace urban_nav {
@@ -25,7 +25,7 @@ class CurrentRendering {
   void render(const std::vector<urban_nav_store::StoredTrajectory>& map);
 
   urban_nav_store::Store& store_;
-  std::string folder_;  // for the copy
+  std::unique_ptr<ScratchFolder> folder_;  // for the copy
   std::unique_ptr<urban_nav_store::Store> copy_;
 };
 

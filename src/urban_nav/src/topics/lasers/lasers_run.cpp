@@ -12,10 +12,12 @@
 #include "laser_mapper/map_files.hpp"
 #include "laser_mapper/map_picture.hpp"
 #include "laser_mapper/sensors.hpp"
+#include "laser_mapper/tiles/tile_store.hpp"
 #include "map/rendered_poses.hpp"
 #include "map/stage_result.hpp"
 #include "topics/lasers/map_colour.hpp"
 #include "topics/lasers/map_viewer.hpp"
+#include "topics/lasers/report_tiles.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -75,6 +77,27 @@ std::string whyEmpty(const LaserMapRun& run) {
          " out of range), and no surface is seen by three keyframes of dense stereo";
 }
 
+/// Returns points as records of the map's file, and counts them.
+std::string printPoints(const std::vector<MapPoint>& points, LaserMapRun& run, SigmaHistogram& sigmas) {
+  std::string bytes;
+  for (const MapPoint& point : points) {
+    appendVertex(bytes, point);
+    if (point.laser == laser_mapper::kStereoSensor) ++run.stereo;
+    else sigmas.add(point.sigma);
+  }
+  return bytes;
+}
+
+/// Writes the tiles of a map next to the report if the report does not hold all of its points, else removes those of an
+/// earlier run. Returns the list for the report.
+std::string writeFinerLevels(const MapContext& context, const urban_nav_store::SessionId& first, std::size_t number,
+                             bool are_needed) {
+  const std::string folder = (std::filesystem::path(context.options.out) / kReportTiles).string();
+  if (are_needed) return writeReportTiles(*context.store, first, folder, number);
+  removeReportTiles(folder, number);
+  return "";
+}
+
 /// Renders a map. `make_colours`: called after rendering.
 LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<MapColours>()>& make_colours,
                       const std::vector<laser_mapper::MappedSession>& mapped, std::size_t first_session,
@@ -105,21 +128,19 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<MapColo
                                  laser_mapper::mapLayout(laser_mapper::storedSensors(*context.store, ids)));
   SigmaHistogram sigmas;
   MapViewer viewer(first_session);
+  laser_mapper::TileWriter tiles(*context.store, laser_mapper::tiledSessions(*context.store, mapped, map.passes()),
+                                 map.parameters().voxel);
   run.ghost_beams = map.forEachTile([&](const laser_mapper::Tile& tile, std::vector<MapPoint> points) {
     run.coloured += colours->colour(tile, points);
-    std::string bytes;
-    for (const MapPoint& point : points) {
-      appendVertex(bytes, point);
-      if (point.laser == laser_mapper::kStereoSensor) ++run.stereo;
-      else sigmas.add(point.sigma);
-    }
-    file.append(bytes);
+    tiles.add(tile, points);
+    file.append(printPoints(points, run, sigmas));
     above.draw(points);
     perspective.draw(points);
     for (MapPoint& point : points) point.displacement = quality.displacementAt(point.p).value_or(-1.0F);
     viewer.add(points);
   });
   colours->finish();
+  tiles.finish();
   run.points = file.vertices();
   run.sigma_median = sigmas.median();
   if (run.points > 0) file.commit();
@@ -127,6 +148,7 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<MapColo
     above.drawPath(path);
     viewer.addPath(path);
   }
+  viewer.setTiles(writeFinerLevels(context, mapped.front().id, first_session, run.points > viewer.points()));
   run.viewer = viewer.render();
   if (run.points > 0) {
     run.pictures.push_back(pagePicture(above, "The map from above, the path of the robot in red."));

@@ -15,6 +15,7 @@
 #include "laser_mapper/mesh/surface_mesh.hpp"
 #include "laser_mapper/occupancy_grid.hpp"
 #include "laser_mapper/sensors.hpp"
+#include "laser_mapper/tiles/tile_store.hpp"
 #include "topics/lasers/current_rendering.hpp"
 #include "topics/lasers/map_colour.hpp"
 #include "topics/lasers/map_crs.hpp"
@@ -194,6 +195,21 @@ void forEachColouredTile(Store& store, const LaserMap& map, const MappedSessions
   });
 }
 
+using MapTileOf =
+    std::function<void(const LaserMap& map, const laser_mapper::Tile& tile, const std::vector<MapPoint>& points)>;
+
+/// Renders the map anew if edits have moved its poses.
+void forEachCurrentTile(Store& store, const std::vector<StoredTrajectory>& map, const MappedSessions& mapped,
+                        double memory_mb, const MapTileOf& take) {
+  if (mapped.sessions.empty()) return;
+  CurrentRendering rendering(store, map);
+  LaserMap laser_map(*mapped.parameters, rendering.store(), mapped.sessions);
+  laser_map.load();
+  forEachColouredTile(
+      rendering.store(), laser_map, mapped, memory_mb,
+      [&](const laser_mapper::Tile& tile, const std::vector<MapPoint>& points) { take(laser_map, tile, points); });
+}
+
 /// Writes the formats with coloured points.
 std::size_t writeColoured(const MapFilePaths& paths, Store& store, const LaserMap& map, const MappedSessions& mapped,
                           const MapCrs* crs, double memory_mb, const AttributeSource& attributes) {
@@ -232,13 +248,23 @@ bool holdsMap(Store& store, const std::vector<StoredTrajectory>& map) {
 
 void forEachMapTile(Store& store, const std::vector<StoredTrajectory>& map, double memory_mb,
                     const std::function<void(const std::vector<MapPoint>&)>& take) {
+  forEachCurrentTile(
+      store, map, mappedSessions(store, map), memory_mb,
+      [&](const LaserMap&, const laser_mapper::Tile&, const std::vector<MapPoint>& points) { take(points); });
+}
+
+void writeMapTiles(Store& store, const std::vector<StoredTrajectory>& map, double memory_mb, Store& into) {
   const MappedSessions mapped = mappedSessions(store, map);
-  if (mapped.sessions.empty()) return;
-  CurrentRendering rendering(store, map);
-  LaserMap laser_map(*mapped.parameters, rendering.store(), mapped.sessions);
-  laser_map.load();
-  forEachColouredTile(rendering.store(), laser_map, mapped, memory_mb,
-                      [&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) { take(points); });
+  std::optional<laser_mapper::TileWriter> tiles;
+  forEachCurrentTile(
+      store, map, mapped, memory_mb,
+      [&](const LaserMap& laser_map, const laser_mapper::Tile& tile, const std::vector<MapPoint>& points) {
+        if (!tiles)
+          tiles.emplace(into, laser_mapper::tiledSessions(store, mapped.sessions, laser_map.passes()),
+                        mapped.parameters->voxel);
+        tiles->add(tile, points);
+      });
+  if (tiles) tiles->finish();
 }
 
 ExportedMap exportMap(Store& store, const std::vector<StoredTrajectory>& map, const MapFilePaths& paths,

@@ -52,6 +52,10 @@ ExportedMap exportMap(urban_nav_store::Store& store, const std::vector<urban_nav
 void forEachMapTile(urban_nav_store::Store& store, const std::vector<urban_nav_store::StoredTrajectory>& map,
                     double memory_mb, const std::function<void(const std::vector<laser_mapper::MapPoint>&)>& take);
 
+/// Writes the points of forEachMapTile() to `into`, another store, as tiles of all levels of detail.
+void writeMapTiles(urban_nav_store::Store& store, const std::vector<urban_nav_store::StoredTrajectory>& map,
+                   double memory_mb, urban_nav_store::Store& into);
+
 /// Returns `path` with another extension, which begins with a point.
 std::string withExtension(const std::string& path, const std::string& extension);
 

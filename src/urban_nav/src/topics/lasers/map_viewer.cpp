@@ -6,6 +6,7 @@
 
 #include "base/page.hpp"
 #include "base/web_files.hpp"
+#include "topics/lasers/report_tiles.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 
 namespace urban_nav {
@@ -100,9 +101,13 @@ std::string MapViewer::render() const {
       R"html(<option value="height">height</option><option value="pass">pass</option><option value="sensor">sensor</option>)html"
       R"html(<option value="sigma">sigma</option><option value="quality">agreement of passes</option></select> <output>drag: turn; shift and drag: move; wheel: zoom</output></p>)html"
       R"html(<canvas tabindex="0" aria-label="Map" style="width:100%;height:min(70vh,40rem);touch-action:none;background:#fafafa"></canvas>)html";
-  html += "<script type=\"application/octet-stream\">" + base64(packPoints(shown, box)) + "</script></div>\n";
+  html += "<script type=\"application/octet-stream\">" + base64(packPoints(shown, box)) + "</script>";
+  if (!tiles_.empty())
+    html += "<script type=\"application/json\" data-folder=\"" + std::string(kReportTiles) + "\" data-number=\"" +
+            std::to_string(number_) + "\">" + tiles_ + "</script>";
+  html += "</div>\n";
   // Each view includes the scripts, which initialise the last view on the page so far.
-  return html + "<script>" + webFiles({"camera.js", "points.js", "report_map.js"}) +
+  return html + "<script>" + webFiles({"camera.js", "points.js", "tiles.js", "tile_view.js", "report_map.js"}) +
          "urbanNav.showReportMap([...document.querySelectorAll(\".map-view\")].pop());</script>";
 }
 

@@ -15,6 +15,7 @@ namespace urban_nav {
 /// The 3D view of a map in the report: its points, evenly thinned to at most 500 000, and the path, drawn by WebGL with
 /// the scripts of `view`. Colours by image, reflectance, height, pass, sensor, sigma or agreement of passes; a click
 /// shows the data of a point, the next one its distance from the first. Other stages add colourings (renderMapLayer()).
+/// Finer levels of the map are loaded from the folder next to the report, where it exists, as they come into view.
 /// Empty without WebGL. The result depends on the order of the points. Not thread-safe.
 class MapViewer {
  public:
@@ -23,6 +24,8 @@ class MapViewer {
 
   void add(const std::vector<laser_mapper::MapPoint>& points);
   void addPath(const std::vector<urban_nav_core::Vector3d>& path) { paths_.push_back(path); }
+  /// Finer levels next to the report, from writeReportTiles(); empty: none.
+  void setTiles(std::string list) { tiles_ = std::move(list); }
   /// Returns the self-contained markup with data and script; empty without points.
   std::string render() const;
   /// Returns the number of points that are shown.
@@ -32,6 +35,7 @@ class MapViewer {
   const std::size_t number_;
   urban_nav_core::EvenThinning<laser_mapper::MapPoint> points_{kMostShownPoints};
   std::vector<std::vector<urban_nav_core::Vector3d>> paths_;
+  std::string tiles_;
 };
 
 }  // namespace urban_nav

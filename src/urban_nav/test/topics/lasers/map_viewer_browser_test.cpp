@@ -6,14 +6,18 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
 #include <tuple>
 
 #include "base/map_layer.hpp"
 #include "base/page.hpp"
+#include "edits/circle_store.hpp"
 #include "topics/lasers/map_viewer.hpp"
+#include "topics/lasers/report_tiles.hpp"
 #include "urban_nav_input/testing/folders.hpp"
+#include "view/tiled_store.hpp"
 
 namespace urban_nav {
 namespace {
@@ -133,6 +137,27 @@ TEST_F(MapInABrowser, ALayerIsAChoiceIfItHasAsManyValuesAsThereArePoints) {
   EXPECT_NE(dom.find("<option value=\"class\">"), std::string::npos);
   EXPECT_EQ(dom.find("<option value=\"few\">"), std::string::npos);
   EXPECT_EQ(dom.find("<option value=\"elsewhere\">"), std::string::npos);
+}
+
+TEST_F(MapInABrowser, FinerLevelsAreLoadedFromTheFolderNextToTheReportIfItIsThere) {
+  const std::string path = folder_.file("s.db"), tiles = folder_.file(kReportTiles);
+  testing::writeCircleStore(path);
+  testing::addTiles(path);
+  urban_nav_store::Store store(path, urban_nav_store::Access::Read);
+  viewer_.setTiles(writeReportTiles(store, testing::kMondayId, tiles, 0));
+  const std::string html = "<!DOCTYPE html><body>" + viewer_.render();
+  expectNoErrors(open(html, "--dump-dom"));
+  const std::string dom = urban_nav_input::testing::readFile(folder_.file("dom"));
+  EXPECT_NE(dom.find("data-complete=\"1\""), std::string::npos);
+  EXPECT_EQ(dom.find("data-points=\"0\""), std::string::npos) << "tiles of the map are in view";
+  removeReportTiles(tiles, 1);
+  EXPECT_TRUE(std::filesystem::exists(tiles)) << "those of another view";
+  removeReportTiles(tiles, 0);
+  EXPECT_FALSE(std::filesystem::exists(tiles));
+  expectNoErrors(open(html, "--screenshot='" + folder_.file("picture.png") + "'"));
+  const cv::Mat whole = cv::imread(folder_.file("picture.png"), cv::IMREAD_GRAYSCALE);
+  const cv::Mat picture = whole.rowRange(kBelowControls, whole.rows - kBelowControls);
+  EXPECT_GT(cv::countNonZero(picture < 245), picture.rows * picture.cols / 20) << "the points in the report";
 }
 
 TEST_F(MapInABrowser, TheReportHoldsTheViewAndHasNoErrors) {
