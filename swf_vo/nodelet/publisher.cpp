@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "publisher.hpp"
 
-#include <nav_msgs/Odometry.h>
 #include <urban_nav_msgs/RelativePose.h>
 #include <urban_nav_msgs/VoStatistics.h>
 
@@ -18,15 +17,16 @@ namespace swf_vo {
 
 namespace topics = urban_nav_ros::topics;
 using urban_nav_ros::toRosTime;
+using Source = urban_nav_ros::OdometryPublisher::Source;
 
 namespace {
 constexpr double kPathSpacing = 0.5;  // m, for display
 constexpr std::size_t kPathPoints = 4000;
 }  // namespace
 
-Publisher::Publisher(urban_nav_ros::StageNode& node)
+Publisher::Publisher(urban_nav_ros::StageNode& node, bool imu_rate)
     : node_(node),
-      odometry_(node.nh().advertise<nav_msgs::Odometry>(topics::kVoOdometry, 50)),
+      odometry_(node.nh(), topics::kVoOdometry, imu_rate),
       relative_(node.nh().advertise<urban_nav_msgs::RelativePose>(topics::kVoRelativePose, 200)),
       frame_(node.nh().advertise<urban_nav_msgs::VoStatistics>(topics::kVoStatistics, 50)),
       landmarks_(node.nh().advertise<sensor_msgs::PointCloud2>(topics::kVoLandmarks, 5)),
@@ -35,6 +35,7 @@ Publisher::Publisher(urban_nav_ros::StageNode& node)
 
 void Publisher::startSession(const Frames& frames, double near_disparity_px) {
   frames_ = frames;
+  odometry_.setFrames({frames.odom, frames.base, frames.publish_tf});
   drawn_path_.header.frame_id = frames.odom;
   drawn_path_.poses.clear();
   node_.restartStatus();
@@ -45,7 +46,7 @@ void Publisher::publish(const Frame& frame, const urban_nav_core::OdometrySessio
                         const urban_nav_core::StereoPair& pair, double process_ms) {
   publishFrame(frame, process_ms);  // first: stages correct the images of a pose by its turn of the right camera
   if (frame.accepted) {
-    publishOdometry(frame);
+    odometry_.publish(frame.stamp, frame.T_odom_base, frame.velocity.twist, frame.velocity.covariance, Source::Frame);
     if (urban_nav_ros::appendToPath(frame.stamp, frame.T_odom_base.pose, kPathSpacing, kPathPoints, drawn_path_))
       path_.publish(drawn_path_);
     publishLandmarks(frame);
@@ -60,17 +61,8 @@ void Publisher::publish(const Settled& settled, const urban_nav_core::OdometrySe
   relative_.publish(urban_nav_ros::toRelativePoseMessage({settled.from_previous, session}, frames_.base));
 }
 
-void Publisher::publishOdometry(const Frame& frame) {
-  nav_msgs::Odometry odometry =
-      urban_nav_ros::toOdometryMessage(frame.stamp, frame.T_odom_base, frames_.odom, frames_.base);
-  urban_nav_ros::setTwist(frame.velocity.twist, frame.velocity.covariance, odometry);
-  odometry_.publish(odometry);
-  if (!frames_.publish_tf) return;
-  geometry_msgs::TransformStamped transform;
-  transform.header = odometry.header;
-  transform.child_frame_id = frames_.base;
-  transform.transform = urban_nav_ros::toTransformMessage(frame.T_odom_base.pose);
-  broadcaster_.sendTransform(transform);
+void Publisher::publish(const PropagatedPose& pose) {
+  odometry_.publish(pose.stamp, pose.T_odom_base, pose.velocity.twist, pose.velocity.covariance, Source::Propagation);
 }
 
 void Publisher::publishFrame(const Frame& frame, double process_ms) {

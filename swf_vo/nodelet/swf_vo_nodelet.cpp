@@ -60,7 +60,7 @@ class SwfVoStage {
 SwfVoStage::SwfVoStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
   node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
-  publisher_ = std::make_unique<Publisher>(node);
+  publisher_ = std::make_unique<Publisher>(node, nodelet_.imu_rate);
   LiveOdometry::Listener listener;
   listener.frame = [this](const Frame& frame, const urban_nav_core::StereoPair& pair, double process_ms) {
     publisher_->publish(frame, odometry_->session(), pair, process_ms);
@@ -68,15 +68,19 @@ SwfVoStage::SwfVoStage(Node& node) : node_(node) {
   };
   listener.warning = [this](const std::string& text) { node_.logWarning("motion sensor", text); };
   listener.settled = [this](const Settled& settled) { publisher_->publish(settled, odometry_->session()); };
+  if (nodelet_.imu_rate) listener.propagated = [this](const PropagatedPose& pose) { publisher_->publish(pose); };
   odometry_ = std::make_unique<LiveOdometry>(parameters_, listener, nodelet_.robot, nodelet_.recording);
   StereoSessions::Options sessions = urban_nav_ros::toStereoOptions(nodelet_, node.nh());
   sessions.motion = urban_nav_core::toMotionChoice(nodelet_.motion_input);
   sessions.wheel_noise = nodelet_.wheel_noise;
   sessions.gyro_noise = nodelet_.gyro_noise;
-  sessions_ = std::make_unique<StereoSessions>(
-      sessions,
-      StereoSessions::Listener{[this](const auto& camera) { begin(camera); }, [this](auto& pair) { process(pair); },  //
-                               [this](const auto& why) { end(why); }, [this](const auto& fault) { refuse(fault); }});
+  StereoSessions::Listener images;
+  images.began = [this](const auto& camera) { begin(camera); };
+  images.pair = [this](auto& pair) { process(pair); };
+  images.ended = [this](const auto& why) { end(why); };
+  images.refused = [this](const auto& fault) { refuse(fault); };
+  images.motion = [this](const auto& input) { odometry_->addMotion(input); };
+  sessions_ = std::make_unique<StereoSessions>(sessions, images);
   urban_nav_ros::TopicOptions options;
   options.timeout = kImageTimeout;
   options.queue = nodelet_.queue_size;

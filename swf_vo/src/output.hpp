@@ -25,6 +25,8 @@ class Output {
   /// Sets the estimates of motion sensors in the newest frame.
   void setMotion(const MotionEstimates& motion) { frame_.motion = motion; }
   const Frame& refused(urban_nav_core::StampNs stamp);
+  /// Velocity of the newest accepted frame.
+  const Velocity& newestVelocity() const { return frame_.velocity; }
   Settled settle(const SettledPose& pose);
   /// `window`: contains the frames that are still to settle.
   void archive(urban_nav_core::Archive& archive, const Window& window);

@@ -14,6 +14,7 @@
 #include "health/row_check.hpp"
 #include "motion/mean_choice.hpp"
 #include "motion/motion_sensors.hpp"
+#include "motion/propagation.hpp"
 #include "output.hpp"
 #include "prediction.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
@@ -214,6 +215,12 @@ class SwfVo::Implementation {
     return frame;
   }
 
+  Propagation propagation() const {
+    return Propagation(std::make_unique<Propagation::Implementation>(parameters_, T_odom_first_camera_, prediction_,
+                                                                     sensors_, stamp_, window_.newest(),
+                                                                     output_.newestVelocity()));
+  }
+
   std::vector<Settled> flush() {
     std::vector<Settled> left;
     for (const SettledPose& pose : window_.flush()) left.push_back(output_.settle(pose));
@@ -409,6 +416,7 @@ SwfVo& SwfVo::operator=(SwfVo&&) noexcept = default;
 const Frame& SwfVo::process(const StereoPair& pair, const std::vector<MotionInput>& inputs) {
   return implementation_->process(pair, inputs);
 }
+Propagation SwfVo::propagation() const { return implementation_->propagation(); }
 std::vector<Settled> SwfVo::flush() { return implementation_->flush(); }
 std::string SwfVo::state() const { return implementation_->state(); }
 

@@ -151,10 +151,15 @@ void StereoSessions::feed(const Message& message) {
   if (const auto* image = std::get_if<ImageInput>(&message)) {
     std::visit([&](const auto& pixels) { feed_->add(image->side, pixels); }, image->message);
   } else if (const auto* odometry = std::get_if<nav_msgs::OdometryConstPtr>(&message)) {
-    if (const auto motion = wheels_->add(**odometry)) feed_->add(*motion);
+    if (const auto motion = wheels_->add(**odometry)) feed(*motion);
   } else if (const auto motion = gyroscope_->add(*std::get<sensor_msgs::ImuConstPtr>(message))) {
-    feed_->add(*motion);
+    feed(*motion);
   }
+}
+
+void StereoSessions::feed(const urban_nav_core::MotionInput& motion) {
+  feed_->add(motion);
+  if (listener_.motion) listener_.motion(motion);
 }
 
 void StereoSessions::tryToBegin() {

@@ -8,6 +8,7 @@
 
 #include "swf_vo/frame.hpp"
 #include "swf_vo/parameters.hpp"
+#include "swf_vo/propagation.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/types/motion_input.hpp"
 #include "urban_nav_core/types/stereo_pair.hpp"
@@ -39,6 +40,9 @@ class SwfVo {
   /// valid until the next call.
   const Frame& process(const urban_nav_core::StereoPair& pair,
                        const std::vector<urban_nav_core::MotionInput>& inputs = {});
+
+  /// Returns the propagation of the newest frame's pose by motion sensors. Requires that a pair has been processed.
+  Propagation propagation() const;
 
   /// Empties the window: returns its frames as settled, oldest first. process() must not be called afterwards.
   std::vector<Settled> flush();

@@ -9,6 +9,8 @@ namespace {
 
 // ns; as long as the window of urban_nav_live::FaultRates
 constexpr urban_nav_core::StampNs kNewSession = 10'000'000'000;
+// Motion inputs kept for the propagation of the next frame: of longer than a frame can be delayed, ns.
+constexpr urban_nav_core::StampNs kLongestAhead = 10'000'000'000;
 
 }  // namespace
 
@@ -17,7 +19,9 @@ void LiveOdometry::begin(const urban_nav_core::StereoCamera& camera, const urban
   fault_.clear();
   motion_ = MotionEstimates();
   skipped_inputs_.clear();
-  begin_ = newest_ = 0;
+  propagation_.reset();
+  ahead_.clear();
+  begin_ = newest_ = propagated_ = 0;
   ++sessions_;
 }
 
@@ -46,6 +50,25 @@ void LiveOdometry::process(const urban_nav_core::StereoPairWithMotion& pair, dou
     listener_.warning(describe(frame.motion.faults[i], begin_));
   motion_ = frame.motion;
   if (listener_.frame) listener_.frame(frame, pair.pair, process_ms_);
+  if (listener_.propagated && frame.accepted) restartPropagation();
+}
+
+void LiveOdometry::restartPropagation() {
+  while (!ahead_.empty() && ahead_.front().to <= newest_) ahead_.pop_front();
+  propagation_ = filter_->propagation();
+  for (const urban_nav_core::MotionInput& input : ahead_)
+    if (input.to > newest_) propagation_->add(input);
+}
+
+void LiveOdometry::addMotion(const urban_nav_core::MotionInput& input) {
+  if (!filter_ || !listener_.propagated) return;
+  ahead_.push_back(input);
+  while (ahead_.front().to < input.to - kLongestAhead) ahead_.pop_front();
+  if (!propagation_ || input.to <= newest_) return;
+  const std::optional<PropagatedPose> pose = propagation_->add(input);
+  if (!pose || pose->stamp <= propagated_) return;
+  propagated_ = pose->stamp;
+  listener_.propagated(*pose);
 }
 
 void LiveOdometry::end(const std::string& why) {
@@ -53,6 +76,7 @@ void LiveOdometry::end(const std::string& why) {
   for (const Settled& settled : filter_->flush())
     if (listener_.settled) listener_.settled(settled);
   filter_.reset();
+  propagation_.reset();
   waiting_ = "no session (" + why + ")";
   previous_end_ = why == kReset || why == kFinished ? "" : why;
 }

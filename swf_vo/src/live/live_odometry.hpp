@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,8 @@ class LiveOdometry {
     std::function<void(const Settled& settled)> settled;
     /// Receives the message when a motion sensor is excluded; once for each exclusion.
     std::function<void(const std::string& text)> warning;
+    /// Receives poses between frames, in order of time; they are computed only if it is set.
+    std::function<void(const PropagatedPose& pose)> propagated = {};
   };
 
   /// `robot`, `recording`: parts of the session ids; may be empty.
@@ -41,6 +45,9 @@ class LiveOdometry {
   /// with the next pair that is processed. `backlog`: waiting inputs as a share of the queue's capacity. Requires a
   /// running session.
   void process(const urban_nav_core::StereoPairWithMotion& pair, double backlog = 0.0);
+  /// Propagates the pose of the newest frame by a motion input that the filter has not received yet. Inputs of a sensor
+  /// must be added in order of time. Frames are the same with and without it.
+  void addMotion(const urban_nav_core::MotionInput& input);
   /// Ends the session: flushes smoothed poses to the listener. `why`: for the report, which warns of it for the first
   /// seconds of the next session, unless it is kReset or kFinished.
   void end(const std::string& why);
@@ -57,6 +64,8 @@ class LiveOdometry {
   urban_nav_live::StageReport report() const;
 
  private:
+  void restartPropagation();
+
   const Parameters parameters_;
   const Listener listener_;
   const std::string recording_;
@@ -71,6 +80,9 @@ class LiveOdometry {
   double process_ms_ = 0.0;
   std::int64_t frames_ = 0, lost_frames_ = 0, sessions_ = 0, skipped_ = 0;
   std::vector<urban_nav_core::MotionInput> skipped_inputs_;  // since the last processed pair
+  std::optional<Propagation> propagation_;              // of the newest frame
+  std::deque<urban_nav_core::MotionInput> ahead_;       // later than the newest frame
+  urban_nav_core::StampNs propagated_ = 0;              // newest stamp of a pose between frames
   std::string waiting_ = "no images yet", fault_;
   std::string previous_end_;  // why the previous session ended; empty: none, or by the operator
 };

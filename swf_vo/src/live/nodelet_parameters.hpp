@@ -14,7 +14,7 @@ namespace swf_vo {
 struct NodeletParameters : urban_nav_live::StereoInputParameters, urban_nav_core::MotionInputParameters {
   std::string odom_frame;
   std::string robot, recording;
-  bool publish_tf;
+  bool publish_tf, imu_rate;
 
   NodeletParameters();
 };

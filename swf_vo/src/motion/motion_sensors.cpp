@@ -100,15 +100,50 @@ MotionSensors::MotionSensors(const Pose& T_base_camera)
 
 void MotionSensors::add(const std::vector<MotionInput>& inputs) {
   estimates_.newest = {};
-  for (const MotionInput& input : inputs) {
-    if (input.source == MotionSource::Gyroscope) {
-      gyroscope_.stream.add(input);
-      up_.add(input);
-      q_base_imu_ = input.q_base_sensor;
-    } else if (input.source == MotionSource::Wheels) {
-      wheels_.stream.add(input);
-    }
+  for (const MotionInput& input : inputs) append(input);
+}
+
+void MotionSensors::append(const MotionInput& input) {
+  if (input.source == MotionSource::Gyroscope) {
+    gyroscope_.stream.add(input);
+    up_.add(input);
+    q_base_imu_ = input.q_base_sensor;
+  } else if (input.source == MotionSource::Wheels) {
+    wheels_.stream.add(input);
   }
+}
+
+StampNs MotionSensors::newestRate() const {
+  return delayed(gyroscope_.stream.newest().to, -calibration_.states().mean[MotionStates::kImuOffset]);
+}
+
+Velocity MotionSensors::velocity(Velocity steady) const {
+  const MotionStates& states = calibration_.states();
+  const auto replace = [&](int row, double value, double variance) {
+    steady.twist[row] = value;
+    steady.covariance.row(row).setZero();
+    steady.covariance.col(row).setZero();
+    steady.covariance(row, row) = variance;
+  };
+  if (gyroscope_.mayPredict()) {
+    const TwistSpan& span = gyroscope_.stream.newest();
+    const double white = calibration_.gyroscopeNoise() * rateDensity(gyroscope_.stream, span) / span.seconds();
+    for (int i = 0; i < 3; ++i) replace(3 + i, span.twist[3 + i] - states.bias()[i], white);
+    steady.covariance.bottomRightCorner<3, 3>() += states.covariance.topLeftCorner<3, 3>();
+  }
+  if (wheels_.mayPredict()) {
+    const TwistSpan& span = wheels_.stream.newest();
+    constexpr int kScale = MotionStates::kSpeedScale;
+    const double scale = 1.0 + states.mean[kScale], speed = span.twist[0] / scale;
+    replace(0, speed, (calibration_.wheelNoise() * span.density[0] / span.seconds() +
+                       speed * speed * states.covariance(kScale, kScale)) / (scale * scale));
+  }
+  return steady;
+}
+
+void MotionSensors::continueUnmeasured(StampNs to, double seconds) {
+  since_measured_ += seconds;
+  for (Sensor* sensor : {&gyroscope_, &wheels_}) sensor->stream.forget(to - kHistory);
 }
 
 std::optional<Reckoned> MotionSensors::reckonBy(bool gyroscope, bool wheels, StampNs from, StampNs to,

@@ -25,10 +25,21 @@ class MotionSensors {
 
   /// Adds sensor inputs; inputs that are not from sensors are ignored.
   void add(const std::vector<urban_nav_core::MotionInput>& inputs);
+  /// Adds one sensor input, between two calls of add().
+  void append(const urban_nav_core::MotionInput& input);
   /// Returns the motion of the left camera between two stamps from the sensors in use, with zero information in the
   /// remaining directions; nullopt without any. `T_odom_camera`: at `from`.
   std::optional<ProcessInput> predict(urban_nav_core::StampNs from, urban_nav_core::StampNs to,
                                       const urban_nav_core::Pose& T_odom_camera) const;
+  /// Returns whether predictions contain the gyroscope.
+  bool followsGyroscope() const { return gyroscope_.mayPredict(); }
+  /// Returns the end of the newest rate on the clock of the cameras. Requires followsGyroscope().
+  urban_nav_core::StampNs newestRate() const;
+  /// Returns the twist of base_link at the newest inputs: rotation and forward speed by the sensors in use, the rest
+  /// from `steady`.
+  Velocity velocity(Velocity steady) const;
+  /// Continues after a prediction of this length, which nothing measured, and forgets inputs that end long before `to`.
+  void continueUnmeasured(urban_nav_core::StampNs to, double seconds);
   /// Registers a frame of the window. `by_images`: its pose is measured by images; `reckoned`: the prediction by
   /// sensors contributed to it.
   void addFrame(FrameId frame, double seconds, bool by_images, bool reckoned);

@@ -69,6 +69,8 @@ class StereoSessions {
     std::function<void(const std::string& fault)> refused;
     /// Stamps have jumped back. Called after the last pair before the jump and before `ended`, also without a session.
     std::function<void()> went_back = {};
+    /// Receives the motion inputs of a session as they arrive; pairs contain them again.
+    std::function<void(const urban_nav_core::MotionInput&)> motion = {};
   };
   struct Counts {
     std::int64_t late = 0, duplicate = 0;  ///< images dropped by the queue
@@ -113,6 +115,7 @@ class StereoSessions {
   void handleInfo(const InfoInput& info);
   void handleSensor(const Message& message);
   void feed(const Message& message);
+  void feed(const urban_nav_core::MotionInput& motion);
   void wait(const Message& message);
   void setFault(const std::string& fault);
   void tryToBegin();
