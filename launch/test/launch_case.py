@@ -30,7 +30,7 @@ DISPLAYS = {
     "rviz/Pose": ("Topic", "geometry_msgs/PoseStamped"),
     "rviz/PoseWithCovariance": ("Topic", "geometry_msgs/PoseWithCovarianceStamped"),
 }
-STAGES = ("swf_vo", "laser_odometry", "loop_metric", "dense_stereo", "localization", "fabmap_node", "laser_mapper", "scene_labeler", "pose_graph",
+STAGES = ("swf_vo", "laser_odometry", "loop_metric", "dense_stereo", "localization", "fabmap_node", "laser_mapper", "scene_labeler",
           "trust", "stereo_rectify")
 WITHOUT_TOPIC = {"rviz/Grid", "rviz/TF", "rviz/Axes"}
 

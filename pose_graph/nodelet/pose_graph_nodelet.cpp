@@ -31,6 +31,8 @@ namespace {
 
 // s; delay of the first smoothed pose of a filter with a window; later poses arrive at the rate of its images.
 constexpr double kOdometryTimeout = 5.0;
+// s after an interrupt during which the last poses and closures of other stages are received and stored.
+constexpr double kDrain = 10.0;
 
 }  // namespace
 
@@ -101,7 +103,7 @@ class PoseGraphStage {
 PoseGraphStage::PoseGraphStage(Node& node) : node_(node) {
   Parameters parameters;
   std::tie(nodelet_, parameters) = node.parameters(nodeletTable(), table());
-  node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
+  node.setQueueSize(nodelet_.queue_size, kDrain);
   publisher_ = std::make_unique<Publisher>(node.nh(), nodelet_);
   accelerometer_ =
       std::make_unique<urban_nav_ros::Accelerometer>(nodelet_.base_frame, node.sensors().corrections().accelerometer);

@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "urban_nav_core/types/frames.hpp"
-#include "urban_nav_live/drain_row.hpp"
 
 namespace pose_graph {
 
@@ -40,7 +39,6 @@ const Table<NodeletParameters>& nodeletTable() {
           {"queue_size", &P::queue_size, "messages", 20000, 2, 10000000, {},
            "Inputs that may wait while a relaxation runs; beyond that the oldest is dropped and counted.",
            "docs/architecture.md", {"queue"}},
-          urban_nav_live::drainRow(&P::drain_s, 10.0),
           {"visualization_period", &P::visualization_period, "s", 1.0, 0.05, 3600.0, {},
            "Minimum time between two publications of path and markers.", "", {"picture_period"}},
           {"path_spacing", &P::path_spacing, "m", 1.0, 0.01, 1000.0, {},

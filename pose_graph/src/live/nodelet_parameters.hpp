@@ -18,7 +18,6 @@ struct NodeletParameters {
   std::string recording;
   std::string store;
   int queue_size;               // messages
-  double drain_s;               // s
   double visualization_period;  // s
   double path_spacing;          // m
   bool ground;
