@@ -146,8 +146,12 @@ TEST_F(MapInABrowser, FinerLevelsAreLoadedFromTheFolderNextToTheReportIfItIsTher
   urban_nav_store::Store store(path, urban_nav_store::Access::Read);
   viewer_.setTiles(writeReportTiles(store, testing::kMondayId, tiles, 0));
   const std::string html = "<!DOCTYPE html><body>" + viewer_.render();
-  expectNoErrors(open(html, "--dump-dom"));
-  const std::string dom = urban_nav_input::testing::readFile(folder_.file("dom"));
+  std::string dom;
+  // A browser that lacks processor time may end before the tiles are drawn.
+  for (int i = 0; i < 5 && dom.find("data-complete=\"1\"") == std::string::npos; ++i) {
+    expectNoErrors(open(html, "--dump-dom"));
+    dom = urban_nav_input::testing::readFile(folder_.file("dom"));
+  }
   EXPECT_NE(dom.find("data-complete=\"1\""), std::string::npos);
   EXPECT_EQ(dom.find("data-points=\"0\""), std::string::npos) << "tiles of the map are in view";
   removeReportTiles(tiles, 1);
