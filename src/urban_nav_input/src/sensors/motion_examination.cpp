@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sensors/interpolation.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/trajectory/statistics.hpp"
@@ -23,7 +24,6 @@ constexpr double kGross = 3.0;  // larger ratios are also significant for small 
 constexpr std::size_t kLeastIntervals = 5;
 constexpr double kMostSpread = 0.35;                // relative spread of the quartiles for a consistent scale
 constexpr double kScaleTolerance = 0.2;             // relative, for slip and worn tyres
-constexpr StampNs kLongestGap = 300'000'000;        // ns between messages that are interpolated
 constexpr StampNs kTurnWindow = 2'000'000'000;      // ns, of intervals that compare wheels and gyroscope
 constexpr double kDegreesPerRadian = 180.0 / M_PI;  // rates in deg/s over rates in rad/s
 constexpr double kFewMetres = 2.0;                  // m: distance by speeds while poses do not move
@@ -31,16 +31,6 @@ constexpr std::size_t kMostPoses = 2'000'000;
 constexpr double kSameDelay = 0.02;  // s: difference of two sensors with one clock
 
 double wrap(double angle) { return std::remainder(angle, 2.0 * M_PI); }
-
-/// Returns the value of a series at a stamp, between two messages; nullopt in a gap.
-template <typename ValueOf>
-std::optional<double> interpolate(const std::vector<StampNs>& stamps, const ValueOf& value_of, StampNs at) {
-  const auto after = std::lower_bound(stamps.begin(), stamps.end(), at);
-  if (after == stamps.begin() || after == stamps.end() || *after - *(after - 1) > kLongestGap) return std::nullopt;
-  const auto i = static_cast<std::size_t>(after - stamps.begin());
-  const double share = static_cast<double>(at - stamps[i - 1]) / static_cast<double>(stamps[i] - stamps[i - 1]);
-  return value_of(i - 1) + share * (value_of(i) - value_of(i - 1));
-}
 
 /// Ratio of two sensors.
 struct Ratio {
@@ -118,7 +108,7 @@ void MotionExamination::addWheels(StampNs stamp, const std::array<double, 3>& x_
   wheel_stamps_.push_back(stamp);
   wheels_.push_back(now);
   if (!std::isfinite(speed)) return;
-  if (speed_stamp_ > 0 && stamp - speed_stamp_ < kLongestGap)
+  if (speed_stamp_ > 0 && stamp - speed_stamp_ < kLongestInterpolatedGap)
     by_speed_ += std::abs(0.5 * (speed + speed_)) * 1e-9 * static_cast<double>(stamp - speed_stamp_);
   speed_ = speed;
   speed_stamp_ = stamp;

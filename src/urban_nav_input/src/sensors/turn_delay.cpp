@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sensors/interpolation.hpp"
+
 namespace urban_nav_input {
 
 using urban_nav_core::StampNs;
@@ -14,7 +16,6 @@ namespace {
 constexpr StampNs kLongestTurnDelay = 500'000'000,
                   kDelayStep = 5'000'000;        // ns; larger delays show in the times of receipt
 constexpr StampNs kTransportDelay = 50'000'000;  // ns: exposure, transfer and receipt of sensors without a common clock
-constexpr StampNs kLongestTurnGap = 300'000'000;  // ns between messages that are interpolated
 constexpr std::size_t kLeastTurns = 10;
 constexpr double kLeastCorrelation = 0.8;
 // Log likelihood ratio: a false alarm in 10^5 for each of the 200 delays tried.
@@ -26,11 +27,8 @@ struct Turn {
 };
 
 std::optional<double> headingAt(const std::vector<StampNs>& stamps, const std::vector<double>& headings, StampNs at) {
-  const auto after = std::lower_bound(stamps.begin(), stamps.end(), at);
-  if (after == stamps.begin() || after == stamps.end() || *after - *(after - 1) > kLongestTurnGap) return std::nullopt;
-  const auto i = static_cast<std::size_t>(after - stamps.begin());
-  const double share = static_cast<double>(at - stamps[i - 1]) / static_cast<double>(stamps[i] - stamps[i - 1]);
-  return headings[i - 1] + share * (headings[i] - headings[i - 1]);
+  return interpolate(
+      stamps, [&](std::size_t i) { return headings[i]; }, at);
 }
 
 /// Sum of squared differences after subtraction of a constant rate, and correlation of the turns.
@@ -68,7 +66,7 @@ std::optional<double> findTurnDelay(const std::vector<StampNs>& stamps, const st
   std::vector<SeenMotion> covered;
   for (const SeenMotion& motion : seen) {
     bool is_covered = motion.to > motion.from;
-    for (StampNs delay = -kLongestTurnDelay; is_covered && delay <= kLongestTurnDelay; delay += kLongestTurnGap)
+    for (StampNs delay = -kLongestTurnDelay; is_covered && delay <= kLongestTurnDelay; delay += kLongestInterpolatedGap)
       is_covered = headingAt(stamps, headings, motion.from + delay) && headingAt(stamps, headings, motion.to + delay);
     if (is_covered && headingAt(stamps, headings, motion.to + kLongestTurnDelay)) covered.push_back(motion);
   }
