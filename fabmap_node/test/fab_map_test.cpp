@@ -41,7 +41,7 @@ PlaceDescription describeNumber(std::uint32_t number, std::uint32_t noise) {
   return PlaceDescriber(syntheticModel(), {}, 280).describe(syntheticPlace(number, noise));
 }
 
-TEST(FabMap, GivesTheSameWithLooksThatAreReadBack) {
+TEST(FabMap, GivesTheSameWithDescriptorsReadFromTheStore) {
   std::map<std::pair<std::size_t, StampNs>, std::string> looks;
   FabMap plain(syntheticModel(), Parameters());
   FabMap reading(syntheticModel(), Parameters(), [&looks](std::size_t session, StampNs stamp) {

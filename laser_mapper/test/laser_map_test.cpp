@@ -69,7 +69,7 @@ class LaserMapTest : public ::testing::Test {
   std::unique_ptr<Store> store_;
 };
 
-TEST_F(LaserMapTest, PointsLieOnTheWallsAndNormalsPointIntoTheRoom) {
+TEST_F(LaserMapTest, PointsAreOnTheWallsAndNormalsPointIntoTheRoom) {
   const std::vector<MapPoint> points = mapPoints(trajectory_);
   ASSERT_GT(points.size(), 5000U);
   std::vector<double> distances;

@@ -59,7 +59,7 @@ TEST(Revisits, SessionsMeetEachOther) {
   EXPECT_EQ(chunks[1].count(chunkBegin(tuesday.back().stamp)), 0U);
 }
 
-TEST(Revisits, ARobotThatStandsRevisitsNothing) {
+TEST(Revisits, AStationaryRobotRevisitsNothing) {
   Trajectory standing;
   for (int i = 0; i < 3000; ++i) standing.append(i * 100'000'000LL, Pose());
   EXPECT_TRUE(findRevisitedChunks({&standing}, kReach).at(0).empty());

@@ -13,7 +13,7 @@ namespace {
 
 using urban_nav_core::parseSetting;
 
-TEST(Parameters, YamlAndReadmeAreAsTheTablesSay) {
+TEST(Parameters, YamlAndReadmeMatchTheTables) {
   EXPECT_EQ(urban_nav_core::testing::findFaults(table().stage(), table().rows(), nodeletTable().rows()), "");
 }
 

@@ -10,7 +10,7 @@
 namespace laser_odometry {
 namespace {
 
-TEST(SweepPoints, DeskewedPointsLieWhereTheReferenceTimeSeesThem) {
+TEST(SweepPoints, DeskewedPointsAreThoseAtTheReferenceTime) {
   SpinningLidar lidar;
   lidar.sigma_m = 0.0;
   lidar.T_base_lidar = Pose(urban_nav_core::expSo3({0.0, 0.1, 0.2}), {0.5, 0.0, 0.2});

@@ -103,7 +103,7 @@ std::string streets(const Parameters& parameters) {
   return relaxedBytes(graph);
 }
 
-TEST(Parameters, YamlAndReadmeAreAsTheTablesSay) {
+TEST(Parameters, YamlAndReadmeMatchTheTables) {
   EXPECT_EQ(urban_nav_core::testing::findFaults(table().stage(), table().rows(), nodeletTable().rows()), "");
 }
 

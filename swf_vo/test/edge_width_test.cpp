@@ -47,7 +47,7 @@ TEST(EdgeVariance, GrowsByWhatTheLensAdds) {
   EXPECT_LT(of(edges(0.5, 0.5)).maxCoeff(), 1.0);
 }
 
-TEST(EdgeVariance, KnowsNothingOfContrastAndOfHowMuchIsSmooth) {
+TEST(EdgeVariance, IsIndependentOfContrastAndSmoothAreas) {
   const Eigen::Vector2d usual = of(edges(0.5, 0.5));
   EXPECT_TRUE(widening(of(edges(0.5, 0.5, 30.0)), usual).isZero());
   EXPECT_TRUE(widening(of(edges(0.5, 0.5, 100.0, 1.0, 90.0)), usual).isZero()) << "smooth walls are not blurred";

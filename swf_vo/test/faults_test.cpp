@@ -76,7 +76,7 @@ double undisturbedError(const std::string& motion) {
 }
 
 // Measurements from before a gap must not be compared with poses after it.
-TEST(Darkness, SaysNothingOfTheNoise) {
+TEST(Darkness, DoesNotChangeTheNoiseScale) {
   double before = 0.0;
   playWithFault(inTheRoom("wander", 1.0, 80), "black:1.5:0.1", [&](const Played& played) {
     const double noise = played.frame.statistics.noise_scale;

@@ -33,7 +33,7 @@ TEST(Prediction, GoesOnAtTheVelocityOfTheLastStep) {
   EXPECT_TRUE(isApprox(prediction.step(0.3, {}).T_from_to, expSe3(velocity * 0.3), 1e-12)) << "two frames were dropped";
 }
 
-TEST(Prediction, MakesUpNoWayOverALongPause) {
+TEST(Prediction, PredictsNoMotionOverALongPause) {
   Prediction prediction{Parameters(), Pose()};
   prediction.learn(expSe3(twist(0.0, 0.0, 5.0, 0.0, 0.0, 0.0) * 0.1), 0.1, true);
   const ProcessInput u = prediction.step(600.0, {});
@@ -41,7 +41,7 @@ TEST(Prediction, MakesUpNoWayOverALongPause) {
   EXPECT_LT(u.information(2, 2), 1.0 / (1000.0 * 1000.0)) << "anything may have happened";
 }
 
-TEST(Prediction, TrustsItselfLessTheLongerNothingWasMeasured) {
+TEST(Prediction, ItsCovarianceGrowsWithTheTimeWithoutMeasurement) {
   Prediction prediction{Parameters(), Pose()};
   prediction.learn(Pose(), 0.1, true);
   double last = prediction.step(0.1, {}).information(0, 0);

@@ -58,7 +58,7 @@ TEST(Rig, ARolledCameraIsFound) {
 }
 
 // For one camera and room, so that other errors are equal.
-TEST(Rig, ALateShutterIsToldFromAnEarlyOne) {
+TEST(Rig, DistinguishesALateShutterFromAnEarlyOne) {
   constexpr double kDelay = 4e-3;
   const RigConstants late = findRig(0.0, kDelay), early = findRig(0.0, -kDelay);
   EXPECT_NEAR(late.delay_s - early.delay_s, 2.0 * kDelay, 0.6 * kDelay);

@@ -44,7 +44,7 @@ TEST(SwfVo, FollowsTheRobotAndSettlesEveryFrame) {
   }
 }
 
-TEST(SwfVo, StandsStill) {
+TEST(SwfVo, IsStationary) {
   const Recording& room = inTheRoom("stand", 2.0, 40);
   SwfVo filter(Parameters(), stereoCamera(), Pose());
   for (const StereoFrame& frame : room.frames) {

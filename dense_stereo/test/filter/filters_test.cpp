@@ -70,7 +70,7 @@ TEST(DepthEdges, MarksAWindowAroundAStepAndNothingElse) {
     for (int u = 0; u < 64; ++u) ASSERT_EQ(edges.row(v)[u] != 0, u >= 29 - 4 && u <= 30 + 4) << u << " " << v;
 }
 
-TEST(DepthEdges, LooksAcrossOccludedStripsAndForgivesSlants) {
+TEST(DepthEdges, DetectsEdgesAcrossOccludedStripsAndIgnoresSlants) {
   Padded<std::uint8_t> map = constantMap(64, 32, 10), slanted = constantMap(64, 32, 0), edges;
   for (int v = 0; v < 32; ++v)
     for (int u = 0; u < 64; ++u) {

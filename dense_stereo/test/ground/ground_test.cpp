@@ -109,7 +109,7 @@ TEST(GroundPlane, IsFoundInRenderedRooms) {
   }
 }
 
-TEST(Obstacles, AreWhatStandsOnTheGroundAndNothingElse) {
+TEST(Obstacles, AreTheObjectsOnTheGroundOnly) {
   const auto box = [](double x, double z) { return std::abs(x) < 0.3 && z > 2.5 && z < 3.0 ? 0.15 : 0.0; };
   const auto points = pointsOn(box, 0.1, 1);
   const GroundPlane plane = findGround(points, groundCamera());

@@ -55,7 +55,7 @@ TEST(LiveStereo, RefusesTheMethodsOfTheCommand) {
   }
 }
 
-TEST(LiveStereo, ReportsTheGroundThatItSees) {
+TEST(LiveStereo, ReportsTheMeasuredGround) {
   const testing_support::RenderedPair view(urban_nav_core::testing::texturedRoom(), -2.0, 0.5, 0.9, 0.17, 0.0);
   LiveStereo live{Parameters()};
   EXPECT_TRUE(live.report().is_warning);

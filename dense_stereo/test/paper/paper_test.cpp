@@ -74,7 +74,7 @@ TEST(SupportingWindows, VectorsGiveTheNumbersOfPlainCode) {
   }
 }
 
-TEST(LogFilter, DoesNotSeeBrightnessAndMarksSpots) {
+TEST(LogFilter, IgnoresBrightnessAndMarksSpots) {
   Padded<std::uint8_t> image, filtered, brighter;
   image.resize(40, 20);
   image.fill(90);

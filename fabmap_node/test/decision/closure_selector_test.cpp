@@ -35,7 +35,7 @@ TEST(ClosureSelector, LeavesWellConnectedStretchesAlone) {
   EXPECT_TRUE(selector.select({0, 7.0}, {1, 5.6}, 0.99)) << "another place";
 }
 
-TEST(ClosureSelector, TriesStretchesThatLookAlikeAFewTimesOnly) {
+TEST(ClosureSelector, TriesSimilarStretchesAFewTimesOnly) {
   Parameters parameters;
   parameters.closures_per_metre = 1000.0;
   ClosureSelector selector(parameters);

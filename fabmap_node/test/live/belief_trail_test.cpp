@@ -25,7 +25,7 @@ PlaceBelief beliefAt(StampNs stamp) {
   return belief;
 }
 
-TEST(BeliefTrail, BeliefsAreWhereOdometryWas) {
+TEST(BeliefTrail, BeliefsAreAtTheirPosesOfOdometry) {
   BeliefTrail trail;
   drive(trail, 100 * kTrailPeriod, 11);
   trail.add(beliefAt(103 * kTrailPeriod));

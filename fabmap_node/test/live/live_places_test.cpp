@@ -92,7 +92,7 @@ TEST_F(LivePlacesTest, StoresPlacesWhileTheyAreObserved) {
   EXPECT_FALSE(read[3].thumbnail.empty());
 }
 
-TEST_F(LivePlacesTest, KnowsPlacesOfAnEarlierProcess) {
+TEST_F(LivePlacesTest, RecognisesPlacesOfAnEarlierProcess) {
   drive(*begin(path_), kMonday, 0, 4);
   const std::vector<Session> stored = sessions(path_);
   ASSERT_EQ(stored.size(), 1u);
@@ -218,7 +218,7 @@ TEST_F(LivePlacesTest, ASessionWithoutOdometryIsNamedAfterItsFirstObservation) {
   EXPECT_EQ(rows(path_, sessions(path_)[0].id).size(), 12u);
 }
 
-TEST_F(LivePlacesTest, ResetForgetsPlacesButTheStoreKeepsThem) {
+TEST_F(LivePlacesTest, ResetClearsPlacesButTheStoreKeepsThem) {
   const auto places = begin(path_);
   drive(*places, kMonday, 0, 4);
   places->reset();
@@ -231,7 +231,7 @@ TEST_F(LivePlacesTest, ResetForgetsPlacesButTheStoreKeepsThem) {
   ASSERT_EQ(sessions(path_).size(), 2u);
 }
 
-TEST_F(LivePlacesTest, SavesWhatWasLoadedBesideWhatIsStored) {
+TEST_F(LivePlacesTest, SavesLoadedAndStoredPlaces) {
   const std::string loaded = folder_.file("loaded.db"), saved = folder_.file("saved.db");
   drive(*begin(loaded), kMonday, 0, 3);
   const auto places = begin(path_);

@@ -13,7 +13,7 @@ LocationFilter filterAfter(const std::vector<std::size_t>& places, double log_ra
   return filter;
 }
 
-TEST(LocationFilter, KnowsNothingBeforeTheFirstObservation) {
+TEST(LocationFilter, IsUniformBeforeTheFirstObservation) {
   const LocationFilter filter;
   EXPECT_EQ(filter.priorLogOdds(0, 5), 0.0);
   EXPECT_EQ(filter.motionConsistency(0, 5), 0.0);
@@ -56,7 +56,7 @@ TEST(LocationFilter, PlacesThatStayOrJumpAreNot) {
   EXPECT_LT(filterAfter({3, 90, 17, 55, 130, 8, 71, 29, 102, 46}, 0.0).motionConsistency(0, 60), 0.4);
 }
 
-TEST(LikeliestLocation, PriorDecidesBetweenPlacesThatLookAlike) {
+TEST(LikeliestLocation, PriorDecidesBetweenSimilarPlaces) {
   const LocationFilter filter = filterAfter({20, 21, 22}, 2.0);
   EXPECT_EQ(likeliestLocation(filter, {{0, 80, 0.1}, {0, 23, 0.0}}), 1u);
   EXPECT_EQ(likeliestLocation(filter, {{0, 80, 9.0}, {0, 23, 0.0}}), 0u);

@@ -64,7 +64,7 @@ TEST(FitLogistic, CorrelatedEvidenceKeepsWhatTheFirstBoundHolds) {
   EXPECT_GT(fitLogistic(samples, 0.01)(1), 0.0);
 }
 
-TEST(FitLogistic, StrongPenaltyKnowsNothing) {
+TEST(FitLogistic, StrongPenaltyGivesTheMean) {
   const LogisticSamples samples = drawRows((Eigen::VectorXd(2) << 3.0, 0.0).finished(), 100, 6);
   EXPECT_LT(fitLogistic(samples, 1e9).cwiseAbs().maxCoeff(), 1e-6);
 }

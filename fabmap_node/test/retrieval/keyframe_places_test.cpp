@@ -164,7 +164,7 @@ TEST_F(KeyframePlacesTest, DescribesKeyframesOfAnotherModelOrCamera) {
   expectFound(of_another_camera);
 }
 
-TEST_F(KeyframePlacesTest, HasNothingToSayOfWhatIsNoImage) {
+TEST_F(KeyframePlacesTest, ReturnsNothingForAnInvalidImage) {
   EXPECT_TRUE(KeyframePlaces().find(visit(1), 3).empty()) << "not open";
   KeyframePlaces places;
   places.open(*store_, searched_);

@@ -181,7 +181,7 @@ TEST_F(FabmapNodelet, RecognisesARevisitAndProposesIt) {
   EXPECT_NEAR(belief.p_new + belief.probabilities[0], 1.0, 1e-9);
 }
 
-TEST_F(FabmapNodelet, ForgetsOnResetAndContinuesWithFourCameras) {
+TEST_F(FabmapNodelet, ClearsOnResetAndContinuesWithFourCameras) {
   // More than max_lateness apart, but too little to be a backward jump.
   const auto toStamp = [](unsigned place) { return kFirstStamp + place * 300'000'000LL; };
   for (unsigned place = 10; place < 15; ++place) {
@@ -215,7 +215,7 @@ TEST_F(FabmapNodelet, RecognisesPlacesOfASessionThatWasSaved) {
   EXPECT_EQ(belief.places[0].session.size(), 20U) << "the id of an earlier session";
 }
 
-TEST_F(FabmapNodelet, DrawsItsBeliefAlongThePathOfOdometry) {
+TEST_F(FabmapNodelet, ShowsItsBeliefAlongThePathOfOdometry) {
   const StampNs start = kFirstStamp + 15'000 * kHalfSecond;
   head.drive(start);
   for (unsigned place = 0; place < 5; ++place) ASSERT_TRUE(head.observe(40 + place, start + place * kHalfSecond));
@@ -237,7 +237,7 @@ TEST_F(FabmapNodelet, DrawsItsBeliefAlongThePathOfOdometry) {
   EXPECT_EQ(beliefs, 6U);
 }
 
-TEST_F(FabmapNodelet, KnowsPlacesThatWereCommittedBeforeItsProcessWasKilled) {
+TEST_F(FabmapNodelet, RecognisesPlacesCommittedBeforeItsProcessWasKilled) {
   std::string store;
   ASSERT_TRUE(ros::param::get("fabmap_node/store", store));
   const StampNs start = kFirstStamp + 20'000 * kHalfSecond;

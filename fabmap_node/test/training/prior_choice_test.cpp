@@ -83,7 +83,7 @@ TEST(ChoosePrior, ADifficultSiteDoesNotHideTheLossOfAStrongPrior) {
   EXPECT_LT(choice.losses.front().log_loss - chosenLoss(choice).log_loss, chosenLoss(choice).standard_error);
 }
 
-TEST(ChoosePrior, SitesThatDifferHaveALargerStandardErrorThanSitesThatAreAlike) {
+TEST(ChoosePrior, DifferentSitesHaveALargerStandardErrorThanSimilarOnes) {
   std::vector<CalibrationSample> misleading = drawSites(2.0, 2);
   for (CalibrationSample& sample : misleading)
     if (sample.site < 3 && !sample.is_same_place) sample.evidence.word_ratio += 3.0;

@@ -32,7 +32,7 @@ PlaceModel modelOfSyntheticDrives() {
   return trainModel(std::move(drives), options).model;
 }
 
-TEST(Recalibrate, SeparatesPlacesSeenOnOtherDays) {
+TEST(Recalibrate, SeparatesPlacesOfOtherDays) {
   PlaceModel model = modelOfSyntheticDrives();
   std::vector<LocatedSite> sites = {{locatedDay(0), locatedDay(1)}};
   for (LocatedDay& day : sites[0])
@@ -57,7 +57,7 @@ TEST(Recalibrate, WithoutPanoramasKeepsTheirCalibrations) {
   EXPECT_NE(model.single.bias, single.bias);
 }
 
-TEST(Recalibrate, ClaimsLessWhereOtherSitesLookTheSame) {
+TEST(Recalibrate, StatesLowerProbabilitiesAmongSimilarSites) {
   const PlaceModel model = modelOfSyntheticDrives();
   std::vector<LocatedSite> sites = {{locatedDay(0), locatedDay(1)}};
   PlaceModel alone = model, beside_its_double = model;

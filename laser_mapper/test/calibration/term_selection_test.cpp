@@ -27,7 +27,7 @@ TEST(TermSelection, OnlyWhatDiffersFromZeroIsChosen) {
   EXPECT_EQ(significantTerms(independent(VectorXd::Zero(7), sigmas)), std::vector<bool>(7, false));
 }
 
-TEST(TermSelection, TermsThatOnlyTheirSumSaysAnythingAboutAreNotDroppedTogether) {
+TEST(TermSelection, TermsObservableOnlyAsASumAreNotDroppedTogether) {
   // Delay and shift z are each uncertain, but their sum is significantly non-zero.
   MatrixXd information = MatrixXd::Identity(7, 7) * 1e6;
   information(0, 0) = information(3, 3) = 1e6 + 400.0;

@@ -142,7 +142,7 @@ TEST(ViewCalibration, ATurnedHeadIsFoundAboutEachAxis) {
   EXPECT_LT(distanceBetween(corrected, leftCamera()), 0.02) << "rotation without translation";
 }
 
-TEST(ViewCalibration, DelayAndTurnAreToldFromEachOther) {
+TEST(ViewCalibration, DistinguishesDelayAndTurn) {
   const ViewCalibration found = calibrate(-0.03, kHeadDegree * Vector3d(0.0, 0.0, 2.0), drivenPath());
   ASSERT_TRUE(found.isAdopted());
   EXPECT_NEAR(found.head.at(CalibrationTerm::Delay).adopted, -0.03, 0.003);
@@ -201,7 +201,7 @@ TEST(ViewCalibration, AConstantErrorOfTheLasersIsInTheStatedSigma) {
   EXPECT_LT(yaw.sigma, exact_yaw.sigma + kBias / kWallDistance);
 }
 
-TEST(ViewCalibration, ARobotThatStandsDoesNotTellIt) {
+TEST(ViewCalibration, AStationaryRobotDoesNotDetermineIt) {
   urban_nav_core::Trajectory standing;
   for (const urban_nav_core::StampedPose& pose : drivenPath()) standing.append(pose.stamp, drivenPath()[60].pose);
   const ViewCalibration found = calibrate(0.02, kHeadDegree * Vector3d(0.0, 0.0, 1.0), standing);

@@ -100,7 +100,7 @@ std::vector<MapPoint> groundFrom(float near, float far) {
   return points;
 }
 
-TEST(Colouriser, GroundSeenAtAGrazingAngleDoesNotHideItself) {
+TEST(Colouriser, GroundAtAGrazingAngleDoesNotOccludeItself) {
   Colouriser colouriser(
       {viewFrom(0.0, 0)}, [](std::size_t) { return uniform(10, 20, 200); }, 0.05, 1);
   std::vector<MapPoint> ground = groundFrom(3.0F, 16.0F);
@@ -109,7 +109,7 @@ TEST(Colouriser, GroundSeenAtAGrazingAngleDoesNotHideItself) {
   EXPECT_EQ(colouriser.colour(ground), ground.size());
 }
 
-TEST(Colouriser, WhatStandsOnTheGroundHidesTheGroundAfterIt) {
+TEST(Colouriser, ObjectsOccludeTheGround) {
   Colouriser colouriser(
       {viewFrom(0.0, 0)}, [](std::size_t) { return uniform(10, 20, 200); }, 0.05, 1);
   std::vector<MapPoint> ground = groundFrom(3.0F, 16.0F), box;

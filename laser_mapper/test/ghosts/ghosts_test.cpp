@@ -103,7 +103,7 @@ class GhostTest : public ::testing::Test {
   std::unique_ptr<Store> store_;
 };
 
-TEST_F(GhostTest, APersonWhoWasThereOnceIsLeftOutAndTheRoomStays) {
+TEST_F(GhostTest, APersonPresentOnceIsRemovedAndTheRoomRemains) {
   putScans(true, false);
   const Trajectory trajectory = twoVisits();
   const Made with = makeMap(trajectory, false), without = makeMap(trajectory);
@@ -114,14 +114,14 @@ TEST_F(GhostTest, APersonWhoWasThereOnceIsLeftOutAndTheRoomStays) {
   EXPECT_GT(without.all + with.on_person, with.all - with.all / 500);
 }
 
-TEST_F(GhostTest, SomeoneWhoArrivedBetweenTheVisitsIsLeftOutToo) {
+TEST_F(GhostTest, APersonArrivingBetweenTheVisitsIsRemovedToo) {
   putScans(false, true);
   const Made made = makeMap(twoVisits());
   EXPECT_LT(made.on_person, 10U);
   EXPECT_GT(made.ghost_beams, 100U);
 }
 
-TEST_F(GhostTest, WhatStoodThereBothTimesStays) {
+TEST_F(GhostTest, APersonPresentInBothVisitsRemains) {
   putScans(true, true);
   const Made made = makeMap(twoVisits());
   EXPECT_GT(made.on_person, 100U);
@@ -148,7 +148,7 @@ TEST_F(GhostTest, FlagsFollowTheChunksAndDoNotDependOnThreads) {
   EXPECT_GT(makeMap(first).on_person, 100U) << "the visit with beams through the point was removed";
 }
 
-TEST(ChunkBeams, TellWhatTheyPassedFromWhatTheyMet) {
+TEST(ChunkBeams, DistinguishPassedFromHitPoints) {
   const Trajectory trajectory = testing_room::driveThroughRoom(8.0);  // x = -5...-1, y near 0, looking towards +y
   LaserInput laser;
   laser.T_base_laser = testing_room::roomLaser();

@@ -23,7 +23,7 @@ class SweepViews : public ::testing::Test {
   const urban_nav_core::StampNs middle_ = testing_room::kRoomStart + 2'000'000'000;
 };
 
-TEST_F(SweepViews, SeeThroughTheAirAndHitTheWalls) {
+TEST_F(SweepViews, PassThroughTheAirAndHitTheWalls) {
   const SweepView view = viewAt(middle_);
   std::size_t hits = 0, walls = 0;
   for (double y = -5.0; y < 5.0; y += 0.25)
@@ -38,13 +38,13 @@ TEST_F(SweepViews, SeeThroughTheAirAndHitTheWalls) {
   EXPECT_EQ(view.classify({3.0, -3.0, 0.8}), Sight::Through);
 }
 
-TEST_F(SweepViews, NeverSeeThroughTheFloorHoweverFlatTheyGraze) {
+TEST_F(SweepViews, NeverPassThroughTheFloorAtGrazingAngles) {
   const SweepView view = viewAt(middle_);
   for (double x = -9.5; x < 9.5; x += 0.1)
     for (double y = -5.5; y < 5.5; y += 0.1) ASSERT_NE(view.classify({x, y, 0.0}), Sight::Through) << x << " " << y;
 }
 
-TEST_F(SweepViews, KnowNothingWithoutAPoseOrRings) {
+TEST_F(SweepViews, AreEmptyWithoutAPoseOrRings) {
   EXPECT_EQ(viewAt(testing_room::kRoomStart - 2'000'000'000).classify({6.0, 1.0, 1.0}), Sight::None);
   EXPECT_EQ(SweepView({}, trajectory_, Pose(), Pose(), 500'000'000).classify({6.0, 1.0, 1.0}), Sight::None);
   // Beams of all elevations in one ring, as for a scanner without rings.

@@ -100,7 +100,7 @@ TEST_F(LiveMapTest, PosesOfAnEarlierRoundAtTheSameTimesAreNotUsed) {
   EXPECT_LT(median(map_.render(), Pose()), 0.003);
 }
 
-TEST_F(LiveMapTest, ASessionThatBeginsAgainForgetsTheOneBefore) {
+TEST_F(LiveMapTest, ARestartedSessionDropsThePreviousOne) {
   drive();
   EXPECT_FALSE(map_.render().empty());
   map_.addOdometry({trajectory_.front().stamp - 3'000'000'000, Pose()});
@@ -179,7 +179,7 @@ TEST_F(LiveConstraintsTest, PlanesOfTwoPassesConstrainPosesOfTheGraphOnce) {
     EXPECT_GT(std::max(constraint.a.stamp, constraint.b.stamp), first.back().b.stamp - kPlaneGroupTime);
 }
 
-TEST_F(LiveConstraintsTest, WhatAnIcpClosureTellsIsNotToldAgain) {
+TEST_F(LiveConstraintsTest, TheInformationOfAnIcpClosureIsNotRepeated) {
   closeByIcp(20.0, 55.0, urban_nav_core::ClosureVerdict::Rejected);
   closeByIcp(-500.0, 55.0, urban_nav_core::ClosureVerdict::Accepted);  // with an earlier session
   closeByIcp(12.0, 47.0, urban_nav_core::ClosureVerdict::Accepted);

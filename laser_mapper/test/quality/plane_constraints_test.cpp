@@ -104,7 +104,7 @@ TEST_F(PlaneConstraintTest, WallsAndFloorGiveTheTrueRelativePose) {
   EXPECT_GT(urban_nav_core::smallEigen<6>(constraints[0].measured.information).values(0), 1.0);
 }
 
-TEST_F(PlaneConstraintTest, OneWallTellsNothingAlongItselfNorOfTheTurnAboutItsNormal) {
+TEST_F(PlaneConstraintTest, OneWallConstrainsNeitherItsPlaneNorTheTurnAboutItsNormal) {
   stand({Vector6d::Zero(), drift()});
   see(kWallAhead);
   const auto constraints = find();
@@ -148,7 +148,7 @@ TEST_F(PlaneConstraintTest, FewPlanesAndSmearedOnesGiveNothing) {
   EXPECT_TRUE(findPlaneConstraints({}, {&trajectory_}, kBias, {nullptr}).empty());
 }
 
-TEST_F(PlaneConstraintTest, APlaneSeenInManyPassesCountsOncePerPass) {
+TEST_F(PlaneConstraintTest, APlaneOfManyPassesCountsOncePerPass) {
   stand({Vector6d::Zero(), drift()});
   see(kFloor);
   const Matrix6d two = find().at(0).measured.information;
@@ -169,7 +169,7 @@ TEST_F(PlaneConstraintTest, APlaneSeenInManyPassesCountsOncePerPass) {
     EXPECT_NEAR(heightVariance(constraint.measured.information), 2.0 * heightVariance(two), 0.2 * heightVariance(two));
 }
 
-TEST_F(PlaneConstraintTest, LasersThatHaveChangedSidesTellTheRollAsWellAsTheirConstantErrorsAllow) {
+TEST_F(PlaneConstraintTest, LasersOnExchangedSidesMeasureTheRollWithinTheirConstantErrors) {
   stand({Vector6d::Zero(), Vector6d::Zero()});
   for (int i = 0; i < 30; ++i)
     for (const double y : {-4.0, 4.0}) places_.push_back(seen({{0.1 * i, y, 0.0}, Vector3d::UnitZ()}));

@@ -69,7 +69,7 @@ TEST(SharedBeamsTest, StretchesNearBothEndsOfAClosureShareItsBeams) {
   EXPECT_FALSE(discounted(SharedBeams({&trajectory}, {}, 10.0), constraintBetween(5, 20)).is_shared);
 }
 
-TEST(SharedBeamsTest, AClosureTakesThePartOfItsInformationThatLiesOnTheStretch) {
+TEST(SharedBeamsTest, AClosureTakesThePartOfItsInformationOnTheStretch) {
   const Trajectory trajectory = driveStraight();
   CloudClosure closure = closureByClouds(0.02, 0.002);
   closure.measured.information.bottomRightCorner<3, 3>().setZero();  // so that the lever has no part in it
@@ -82,7 +82,7 @@ TEST(SharedBeamsTest, AClosureTakesThePartOfItsInformationThatLiesOnTheStretch) 
       << "existing measurements are unchanged";
 }
 
-TEST(SharedBeamsTest, ConstraintsTogetherLoseNoMoreThanTheClosureTells) {
+TEST(SharedBeamsTest, ConstraintsTogetherLoseAtMostTheInformationOfTheClosure) {
   const Trajectory trajectory = driveStraight();
   const SharedBeams beams({&trajectory}, {closureByClouds(0.02, 0.002)}, 10.0);
   std::vector<PlaneConstraint> constraints;
@@ -95,7 +95,7 @@ TEST(SharedBeamsTest, ConstraintsTogetherLoseNoMoreThanTheClosureTells) {
   EXPECT_NEAR(taken, 1.0 / (0.02 * 0.02), 0.1 / (0.02 * 0.02));
 }
 
-TEST(SharedBeamsTest, NothingIsLeftOfWhatAClosureTellsBetter) {
+TEST(SharedBeamsTest, NothingRemainsOfWhatAClosureMeasuresBetter) {
   const Trajectory trajectory = driveStraight();
   const SharedBeams strong({&trajectory}, {closureByClouds(1e-4, 1e-5)}, 10.0);
   EXPECT_TRUE(discounted(strong, constraintBetween(5, 20)).measured.information.isZero(0.0));
@@ -130,7 +130,7 @@ TEST(SharedBeamsTest, InformationIsCarriedWithItsLeverInEitherOrder) {
   EXPECT_LT((taken(reversed) - expected).norm(), 1e-6 * expected.norm());
 }
 
-TEST(SharedBeamsTest, SessionsAreToldApart) {
+TEST(SharedBeamsTest, SessionsAreDistinguished) {
   const Trajectory monday = driveStraight(), tuesday = driveStraight();
   const SharedBeams beams({&monday, &tuesday}, {closureByClouds(0.02, 0.002, 1)}, 10.0);
   EXPECT_TRUE(discounted(beams, constraintBetween(5, 20, 1)).is_shared);

@@ -57,7 +57,7 @@ TEST_F(DepthFusion, AveragesWhatImagesAgreeOn) {
   }
 }
 
-TEST_F(DepthFusion, LeavesOutWhatTooFewImagesSee) {
+TEST_F(DepthFusion, LeavesOutPointsOfTooFewImages) {
   drive(2, [&](int) { return room(); });
   EXPECT_TRUE(fuseDepth(posed_[0], posed_, {}).empty());
   FusionRule two;
@@ -65,7 +65,7 @@ TEST_F(DepthFusion, LeavesOutWhatTooFewImagesSee) {
   EXPECT_FALSE(fuseDepth(posed_[0], posed_, two).empty());
 }
 
-TEST_F(DepthFusion, LeavesOutWhatOthersSeeThrough) {
+TEST_F(DepthFusion, LeavesOutPointsThatOthersSeeThrough) {
   // An object is at x = 6 m in the first three of nine images.
   const Scene with_thing = [](const Vector3d& origin, const Vector3d& direction) {
     const double wall = testing_room::rangeInRoom(origin, direction), t = (6.0 - origin.x()) / direction.x();

@@ -90,7 +90,7 @@ class LaserGraph : public urban_nav_ros::testing::Listener {
   ros::Publisher tf_static_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
 };
 
-TEST(LaserOdometryNodelet, FollowsADriveAndSaysWhatIsWrong) {
+TEST(LaserOdometryNodelet, FollowsADriveAndReportsFaults) {
   LaserGraph graph;
   ASSERT_TRUE(LaserGraph::until([&] { return graph.isConnected(); }));
   const Pose T_base_lidar(urban_nav_core::expSo3({0.0, 0.0, 0.5}), {0.3, 0.0, 0.2});

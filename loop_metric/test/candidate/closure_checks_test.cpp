@@ -39,7 +39,7 @@ class ClosureChecks : public ::testing::Test {
   Parameters parameters_;
 };
 
-TEST_F(ClosureChecks, ASingleClosureKeepsItsInformationEitherWay) {
+TEST_F(ClosureChecks, ASingleClosureKeepsItsInformationInEitherMode) {
   std::vector<MetricClosure> batch = {closure(3)};
   applyChecks(batch, place_data_, parameters_);
   MetricClosure live = closure(3);
@@ -61,7 +61,7 @@ TEST_F(ClosureChecks, EqualClosuresTogetherKeepTheInformationOfOne) {
   EXPECT_GT(second.measured.information(0, 0), 0.0);
 }
 
-TEST_F(ClosureChecks, AContradictionOfSeveralNeighboursIsRejectedEitherWay) {
+TEST_F(ClosureChecks, AContradictionOfSeveralNeighboursIsRejectedInEitherMode) {
   const MetricClosure wrong = closure(4, at(2.0, 0.5));
   std::vector<MetricClosure> batch = {closure(2), closure(3), closure(5), wrong};
   applyChecks(batch, place_data_, parameters_);

@@ -63,7 +63,7 @@ TEST(Consistency, WhatItsNeighboursContradictIsRejectedAndTheyStay) {
   }
 }
 
-TEST(Consistency, TwoWithoutAWitnessBothStay) {
+TEST(Consistency, TwoWithoutAThirdAreBothKept) {
   TwoPasses passes;
   passes.closures.resize(2);
   passes.closures[1].measured.T_a_b = closurePose(2.0, 0.5);
@@ -81,7 +81,7 @@ TEST(Consistency, AFreeDirectionContradictsNothing) {
   EXPECT_EQ(passes.closures[4].verdict, ClosureVerdict::Accepted);
 }
 
-TEST(Consistency, OtherSessionsAndFarWaysAreNoNeighbours) {
+TEST(Consistency, OtherSessionsAndLongPathsAreNoNeighbours) {
   TwoPasses passes;
   passes.closures[3].b.session = "another";
   passes.closures[3].measured.T_a_b = closurePose(9.0, 9.0);

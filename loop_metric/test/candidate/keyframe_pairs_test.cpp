@@ -34,7 +34,7 @@ PoseWithCovariance odometry(double x, double heading, double sigma_m, double sig
   return T_a_b;
 }
 
-TEST(ViewPairs, AViewBesideBothMomentsIsNotMatchedWithItself) {
+TEST(ViewPairs, AKeyframeNearBothMomentsIsNotMatchedWithItself) {
   // Back and forth within seven metres: the same keyframes are near both poses.
   auto back = row("a", 6, 6);
   for (NearbyKeyframe& view : back)

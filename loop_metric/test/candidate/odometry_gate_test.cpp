@@ -59,7 +59,7 @@ TEST(OdometryGate, AFreeDirectionCountsForNothing) {
   EXPECT_EQ(gate.deviations(measured), 0.0);
 }
 
-TEST(OdometryGate, AScaleErrorGrowsWithTheWay) {
+TEST(OdometryGate, AScaleErrorGrowsWithTheDistance) {
   const OdometryGate near(makePath(0.1, 0.01, 10.0), 0.01), far(makePath(0.1, 0.01, 1000.0), 0.01);
   Constraint other;
   other.T_a_b = boxPlus(near.T_a_b().pose, (Vector6d() << 0, 5.0, 0, 0, 0, 0).finished());
@@ -68,7 +68,7 @@ TEST(OdometryGate, AScaleErrorGrowsWithTheWay) {
   EXPECT_LT(far.deviations(other), 1.0);
 }
 
-TEST(OdometryGate, KnowsHowFarApartTheMomentsAreAtLeast) {
+TEST(OdometryGate, BoundsTheDistanceOfTheMoments) {
   PlaceData::OdometryPath path = makePath(1.0, 0.01, 0.0);
   path.T_a_b.pose = Pose(urban_nav_core::Quaterniond::Identity(), {30.0, 0.0, 0.0});
   const OdometryGate gate(path, 0.0);

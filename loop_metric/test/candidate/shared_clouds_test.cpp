@@ -70,7 +70,7 @@ class SharedClouds : public ::testing::Test {
   std::vector<MetricClosure> closures_;
 };
 
-TEST_F(SharedClouds, ThoseWithTheSameCloudsKnowWhatOneOfThemKnows) {
+TEST_F(SharedClouds, ThoseWithTheSameCloudsHaveTheInformationOfOne) {
   for (int i = 0; i < 5; ++i) add(20, 120);
   add(20, 160);  // only one cloud is the same
   add(60, 160);
@@ -97,7 +97,7 @@ TEST_F(SharedClouds, ViewsAndWhatWasRejectedHaveNoPartInIt) {
   EXPECT_EQ(sharing(), std::vector<double>(3, 1.0));
 }
 
-TEST_F(SharedClouds, OneAfterAnotherTheFirstTellsAllAndTheSameAgainNothing) {
+TEST_F(SharedClouds, SequentiallyARepeatedClosureHasNoInformation) {
   for (int i = 0; i < 100; ++i) add(20, 120);
   add(120, 20);  // reversed
   add(20, 160);  // only one cloud is the same
@@ -121,7 +121,7 @@ TEST_F(SharedClouds, OneAfterAnotherPartsCountAsParts) {
   EXPECT_NEAR(each[2], 1.0 - 0.25 - 0.5 * 0.5 + 0.25 * 0.5, 1e-9);
 }
 
-TEST_F(SharedClouds, AllTogetherTellTheSameInAnyOrder) {
+TEST_F(SharedClouds, TheirTotalInformationIsIndependentOfTheOrder) {
   for (int i = 0; i < 60; ++i) add(20 + i, 160 - i + (i * 7) % 5);
   const double in_order = keptTogether();
   EXPECT_GT(in_order, 4.0);  // 60 m on both sides, of which a cloud covers 20 m

@@ -60,7 +60,7 @@ TEST(SharedViews, OnlyAcceptedClosuresByStereoTakePart) {
   for (const MetricClosure& closure : closures) EXPECT_DOUBLE_EQ(knows(closure), 6.0);
 }
 
-TEST(SharedViews, ByAndByTheFirstTellsAll) {
+TEST(SharedViews, SequentiallyTheFirstHasAllInformation) {
   SharedKeyframeDiscount discount;
   double sum = 0.0;
   for (int i = 0; i < 20; ++i) {

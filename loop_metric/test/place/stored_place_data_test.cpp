@@ -78,7 +78,7 @@ class StoredSurroundingsTest : public ::testing::Test {
   std::optional<StoredPlaceData> place_data_;
 };
 
-TEST_F(StoredSurroundingsTest, ViewsOfTheWayAroundAMomentInOrder) {
+TEST_F(StoredSurroundingsTest, KeyframesAroundAMomentInOrder) {
   const auto views = place_data_->views({"day", 10 * kRowSecond + kRowSecond / 2}, 4.0);
   ASSERT_EQ(views.size(), 4U);  // at 8, 10, 12 and 14 m; the one at 6 m is 4.5 m away
   EXPECT_EQ(views.front().at.stamp, 8 * kRowSecond);
@@ -104,7 +104,7 @@ TEST_F(StoredSurroundingsTest, ADamagedKeyframeIsNamed) {
   EXPECT_THROW(place_data_->keyframe({"day", 8 * kRowSecond}), urban_nav_core::DataError);
 }
 
-TEST_F(StoredSurroundingsTest, ACloudIsWhatTheLasersSawAroundTheMomentInItsFrame) {
+TEST_F(StoredSurroundingsTest, ACloudHasTheScansAroundTheMomentInItsFrame) {
   const auto cloud = place_data_->cloud({"day", 20 * kRowSecond}, 3.0);
   ASSERT_EQ(cloud.points.size(), 7U);
   ASSERT_EQ(cloud.origins.size(), 7U);
@@ -126,7 +126,7 @@ TEST_F(StoredSurroundingsTest, OdometrysDriftBendsACloud) {
   EXPECT_EQ(place_data_->deformationSigma({"night", 0}, 4.0), 0.0);
 }
 
-TEST_F(StoredSurroundingsTest, KnowsItsMomentsAndTheWayBetweenThem) {
+TEST_F(StoredSurroundingsTest, HasItsMomentsAndThePathBetweenThem) {
   std::string why;
   EXPECT_TRUE(place_data_->knows({"day", kRowSecond / 2}, why));
   EXPECT_FALSE(place_data_->knows({"day", 90 * kRowSecond}, why));

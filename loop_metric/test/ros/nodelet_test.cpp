@@ -188,7 +188,7 @@ TEST_F(LoopMetricNodelet, AfterAGapInOdometryViewsAloneDecide) {
   for (const auto& each : parseEvidence(robot().closures[0].evidence).tries) EXPECT_EQ(each.keyframe_a.session, "");
 }
 
-TEST_F(LoopMetricNodelet, AResetJudgesWhatWaits) {
+TEST_F(LoopMetricNodelet, AResetEvaluatesWaitingCandidates) {
   robot().drive(0, 4);
   ASSERT_TRUE(robot().receipts().await({{"places/closure", 1}}, [&] { robot().recognise(0, 3); }));
   ASSERT_TRUE(robot().call("reset"));

@@ -126,7 +126,7 @@ TEST(GraphFile, RankDeficientInformationOfSixDigitsIsMadeSemidefinite) {
   EXPECT_NEAR(eigen.eigenvalues()[2], 2.0, 1e-5);
 }
 
-TEST(GraphFile, AnEdgeToItselfIsLeftOutAndSaid) {
+TEST(GraphFile, AnEdgeToItselfIsOmittedAndReported) {
   const FileProblem<2> file = parsed<2>("EDGE_SE2 0 0 1 0 0" + kI2 + "EDGE_SE2 0 -1 1 0 0" + kI2);
   EXPECT_EQ(file.ids, (std::vector<G2oGraph::Id>{-1, 0}));
   EXPECT_EQ(file.edges, (std::vector<int>{-1, 0}));

@@ -82,7 +82,7 @@ TEST(Batch, ASessionThatBeganAndJoinedMeanwhileStaysInTheMap) {
   EXPECT_TRUE(isApprox(live.tracks()[1].map.back(), before, 1e-2));
 }
 
-TEST(Batch, AClosureThatIsGoneOrMeasuredAnewIsNotWhatTheBatchSaid) {
+TEST(Batch, AClosureRemovedOrMeasuredAgainKeepsNoVerdictOfTheBatch) {
   PoseGraph live = driven(2);
   Batch batch = live.batch();
   ASSERT_TRUE(live.removeClosure(1));

@@ -61,7 +61,7 @@ TEST(GroundLevel, IsExactOnLevelGround) {
   EXPECT_LT((level.R_map_first * level.up - Vector3d::UnitZ()).norm(), 1e-12);
 }
 
-TEST(GroundLevel, IsSeenFromTheGivenPose) {
+TEST(GroundLevel, IsRelativeToTheGivenPose) {
   Dice dice(1);
   const GroundDrive drive;
   const Pose later = drive.trajectory()[50].pose;

@@ -48,7 +48,7 @@ double tiltBetween(const Rigid<3>& a, const Rigid<3>& b, const Vector3d& up) {
   return (a.R.transpose() * up - b.R.transpose() * up).norm();
 }
 
-TEST(LevelOdometry, TurnsStepsAndLaysPosesAlongThem) {
+TEST(LevelOdometry, TurnsStepsAndIntegratesThem) {
   Dice dice(1);
   Drive drive;
   drive.frames = 4000;

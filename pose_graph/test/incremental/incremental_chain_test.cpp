@@ -67,7 +67,7 @@ TEST(IncrementalChain, IsOneEdgeThatCostsWhatItsLinksDo) {
   EXPECT_NEAR(cost(one, one.poses, Objective::Geodesic), expected, 1e-4 * expected);
 }
 
-TEST(IncrementalChain, SplitsWhereItLies) {
+TEST(IncrementalChain, SplitsAtItsEnds) {
   const std::vector<ChainStep> steps = arc(20);
   IncrementalChain chain(steps.data(), laidBy(steps));
   const Rigid<3> wanted = moved<3>(laidBy(steps).back(), Tangent<3>::Constant(0.02));

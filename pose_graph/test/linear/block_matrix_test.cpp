@@ -31,7 +31,7 @@ TEST(BlockMatrix, EachPairOfNeighboursHasItsPlace) {
   }
 }
 
-TEST(BlockMatrix, StrangersHaveNone) {
+TEST(BlockMatrix, UnconnectedOnesHaveNone) {
   const Adjacency chain = test::chainWithClosures(10, 0, 1);
   const Symbolic symbolic = analyse(chain);
   EXPECT_EQ(BlockPattern(chain, symbolic).slot(2, 7).index, -1);

@@ -237,7 +237,7 @@ TEST(GraphWorker, NothingWaitsForABatch) {
   EXPECT_EQ(worker.counts().relaxations, 1);
 }
 
-TEST(GraphWorker, OneThatIsDueAgainBeforeItHasEndedIsBegunAnew) {
+TEST(GraphWorker, ABatchRequestedWhileRunningIsRepeated) {
   Worker worker(std::make_unique<Note>(50ms), 100, {});
   set(worker, &Note::Book::due);
   std::this_thread::sleep_for(20ms);
@@ -247,7 +247,7 @@ TEST(GraphWorker, OneThatIsDueAgainBeforeItHasEndedIsBegunAnew) {
   EXPECT_EQ(worker.counts().relaxations, 1) << "the first one was not reported";
 }
 
-TEST(GraphWorker, ABatchThatFailsIsSaid) {
+TEST(GraphWorker, AFailedBatchIsReported) {
   std::atomic<bool> reported_reason{false};
   Worker::Listener listener;
   listener.refused = [&](const std::string& why) { reported_reason = why == "out of memory"; };

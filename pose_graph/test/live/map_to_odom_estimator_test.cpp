@@ -75,7 +75,7 @@ TEST(MapToOdomEstimator, ANewSessionIsTiedAtItsFirstPose) {
   expectTied(estimator, next, 76);
 }
 
-TEST(MapToOdomEstimator, AnOdometryThatBeginsAnewDoesSoAtTheNewestPose) {
+TEST(MapToOdomEstimator, ARestartedOdometryStartsAtTheNewestPose) {
   MapToOdomEstimator estimator;
   receive(estimator, 0, 40);
   const Track before = track(0, 40);

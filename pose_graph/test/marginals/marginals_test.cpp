@@ -156,7 +156,7 @@ void expectIndependentOfTheMap() {
     EXPECT_LT((a - b).norm(), 1e-8 * (1.0 + a.norm()));
   }
 }
-TEST(Marginals, DoNotDependOnWhereTheMapLies) {
+TEST(Marginals, DoNotDependOnThePositionOfTheMap) {
   expectIndependentOfTheMap<2>();
   expectIndependentOfTheMap<3>();
 }

@@ -347,7 +347,7 @@ TEST_F(PoseGraphNodelet, ANewSessionHasItsOwnIdAndTimeGoingBackBeginsOne) {
   EXPECT_EQ(trajectory().segments.size(), 3U);
 }
 
-TEST_F(PoseGraphNodelet, MapToOdomTakesTheRobotToItsPoseInASessionThatBeginsOnTheWay) {
+TEST_F(PoseGraphNodelet, MapToOdomTakesTheRobotToItsPoseIfTheSessionBeginsLater) {
   for (int i = 0; i <= 20; ++i) receive(i, odomPose(i));
   drive(0, 10);
   ASSERT_TRUE(driven(11));

@@ -38,7 +38,7 @@ TEST(FixedPoses, EndAtTheDenseOptimum) {
         }
 }
 
-TEST(FixedPoses, OfPartsThatNoEdgeJoinsLieInOneFrame) {
+TEST(FixedPoses, OfUnconnectedPartsAreInOneFrame) {
   Dice dice(42);
   Problem<3> problem = drawHeld<3>(dice, Held::WherePosesAre, 1);
   const Problem<3> other = drawHeld<3>(dice, Held::WherePosesAre, 2);

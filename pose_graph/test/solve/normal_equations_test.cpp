@@ -22,7 +22,7 @@ TEST(Unknowns, FirstPosesOfComponentsAreHeld) {
   EXPECT_EQ(made.of_pose, (std::vector<int>{-1, -1, -1, 0, 1, 2, -1}));
 }
 
-TEST(Unknowns, FixedPosesAreNoneAndLieInOneComponent) {
+TEST(Unknowns, FixedPosesAreNoUnknownsAndInOneComponent) {
   Problem<2> problem;
   problem.poses.resize(7);
   problem.edges.push_back({5, 2, {}, {}});

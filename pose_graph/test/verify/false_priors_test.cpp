@@ -65,7 +65,7 @@ FileProblem<2> read(const std::string& text) {
   return makeProblem<2>(urban_nav_core::parseG2o(text, "graph.g2o"), "graph.g2o");
 }
 
-TEST(FalsePriors, HonestOnesAllStay) {
+TEST(FalsePriors, CorrectOnesAreAllKept) {
   for (const double honest : {1.0, 5.0}) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       Dice dice(seed);

@@ -61,7 +61,7 @@ TEST(DriveWindow, BringsToEachFrameTheReturnsWithinReachAndSettlesAll) {
   EXPECT_TRUE(notes.nearest.at(0.1 * 170.0).holds(1e6));
 }
 
-TEST(TravelledPath, DoesNotGrowWhileTheRobotStands) {
+TEST(TravelledPath, DoesNotGrowWhileTheRobotIsStationary) {
   Trajectory trajectory;
   for (int i = 0; i < 100; ++i) {
     const double x = i < 50 ? 0.01 * (i % 2) : 0.1 * (i - 50);

@@ -122,7 +122,7 @@ TEST(ClassFrequencies, WhatIsLeftOutStaysAsItIsAndDoesNotCount) {
   EXPECT_LT(corrected({0.5, 0.49, 0.01}, all)[0], 0.2F);
 }
 
-TEST(ClassFrequencies, AModelThatDoesNotKnowThoseOfItsTrainingChangesNothing) {
+TEST(ClassFrequencies, AModelWithoutFrequenciesOfItsTrainingChangesNothing) {
   std::vector<float> logs;
   addRow({0.6, 0.3, 0.1}, logs);
   const std::vector<float> before = logs;

@@ -35,7 +35,7 @@ TEST(Spread, GivesHiddenPointsTheClassOfTheirSurroundings) {
   EXPECT_NEAR(std::exp(logs[40]) + std::exp(logs[41]), 1.0F, 1e-5F);
 }
 
-TEST(Spread, SurroundingsTellTheKindOfGroundAndShapeTheRest) {
+TEST(Spread, SurroundingsDetermineTheKindOfGroundAndShapeTheRest) {
   std::vector<Eigen::Vector3f> points;
   std::vector<float> logs;
   const auto add = [&](const std::vector<float>& p) {

@@ -37,7 +37,7 @@ class Teacher : public ::testing::Test {
   Parameters parameters_;
 };
 
-TEST_F(Teacher, LearnsCorrectionsOnAThreadAndCorrectionsThatComeMeanwhileAfterwards) {
+TEST_F(Teacher, TrainsOnAThreadAndAddsLaterCorrectionsAfterwards) {
   LiveTeaching teaching(parameters_, base());
   EXPECT_FALSE(teaching.takeTaught());
   teaching.keep(toDrive(yard_, origin_));
@@ -58,7 +58,7 @@ TEST_F(Teacher, LearnsCorrectionsOnAThreadAndCorrectionsThatComeMeanwhileAfterwa
   EXPECT_GT(corrected(*second), corrected(*first));
 }
 
-TEST_F(Teacher, RefusesWhatItCannotLearn) {
+TEST_F(Teacher, RejectsUnusableCorrections) {
   LiveTeaching teaching(parameters_, base());
   EXPECT_THROW(teaching.correct(origin_, SceneClass::Grass), urban_nav_core::UserError) << "no frame";
   teaching.keep(toDrive(yard_, origin_));

@@ -7,7 +7,7 @@
 namespace scene_labeler {
 namespace {
 
-TEST(DefaultModel, KnowsTheSevenClassesOfThePaperAndIsSmall) {
+TEST(DefaultModel, HasTheSevenClassesOfThePaperAndIsSmall) {
   const LabelModel model = defaultModel();
   EXPECT_EQ(model.classes.size(), 8u);
   EXPECT_EQ(model.classes.front(), SceneClass::Other);

@@ -70,7 +70,7 @@ Shares measureShares(SceneClass wanted, const testing::Yard& yard, const SceneLa
   return shares;
 }
 
-TEST(PlaceNovelty, AnswersAreUnsureInColoursThatTrainingNeverSaw) {
+TEST(PlaceNovelty, LabelsAreUnsureInColoursAbsentFromTraining) {
   const testing::Yard known = makeLawnYard(9), strange = makeStrangeYard(9);
   const SceneLabels at_home = labelScene(trainOnLawnYards(), known.scene, 12);
   EXPECT_LT(at_home.share_unlike, 0.15);
@@ -85,7 +85,7 @@ TEST(PlaceNovelty, AnswersAreUnsureInColoursThatTrainingNeverSaw) {
   }
 }
 
-TEST(PlaceNovelty, JudgesByShapeWhatNoImageShows) {
+TEST(PlaceNovelty, ClassifiesPointsWithoutImagesByShape) {
   const LabelModel& model = testing::trainOnYards(ClassifierKind::Boosted);
   testing::Yard yard = testing::makeYard(9);
   EXPECT_LT(labelScene(model, yard.scene, 12).share_unlike, 0.15);

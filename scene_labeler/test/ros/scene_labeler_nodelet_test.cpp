@@ -77,11 +77,11 @@ class StreetRobot : public urban_nav_ros::testing::Listener {
       odometry.pose.pose =
           urban_nav_ros::toPoseMessage(Pose(Eigen::Matrix3d::Identity(), Vector3d(0.05 * i, 0.0, 0.0)));
       const bool scans = i > 0, shows = i % 10 == 5;
-      EXPECT_TRUE(receipts_.await({{"laser_left/scan", scans ? 1 : 0}, {"ladybug/camera4/image_raw", shows ? 1 : 0}},
-                                  [&] {
-                                    if (scans) left_.publish(scan(toStamp(i)));
-                                    if (shows) show(toStamp(i));
-                                  }));
+      EXPECT_TRUE(
+          receipts_.await({{"laser_left/scan", scans ? 1 : 0}, {"ladybug/camera4/image_raw", shows ? 1 : 0}}, [&] {
+            if (scans) left_.publish(scan(toStamp(i)));
+            if (shows) show(toStamp(i));
+          }));
       EXPECT_TRUE(receipts_.await({{"vo/odometry", 1}}, [&] { odometry_.publish(odometry); }));
     }
   }
@@ -151,7 +151,7 @@ class StreetRobot : public urban_nav_ros::testing::Listener {
   ros::Publisher info_ = advertise<sensor_msgs::CameraInfo>("ladybug/camera4/camera_info");
 };
 
-TEST(SceneLabelerNodelet, LabelsWhatTheLaserAndTheCameraOfASideSee) {
+TEST(SceneLabelerNodelet, LabelsReturnsVisibleInTheCameraOfTheirSide) {
   StreetRobot robot;
   ASSERT_TRUE(StreetRobot::until([&] { return robot.isConnected(); }));
   robot.placeSensors();

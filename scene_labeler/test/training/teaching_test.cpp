@@ -69,7 +69,7 @@ TEST(Teaching, GivesTheSameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(bytes(1), bytes(2));
 }
 
-TEST(Teaching, LearnsNothingFromLabelsThatEqualTheAnswer) {
+TEST(Teaching, IgnoresLabelsThatEqualTheResult) {
   const LabelModel& model = testing::trainOnYards(ClassifierKind::Boosted);
   const testing::Yard yard = testing::makeYard(5);
   std::vector<TrainingFold> folds;
@@ -92,7 +92,7 @@ TEST(Teaching, GivesCorrectionsTenfoldWeight) {
   EXPECT_GT(std::count(taught.samples.weights.begin(), taught.samples.weights.end(), 10), 0);
 }
 
-TEST(Teaching, LearnsTheSuperpixelsAtCorrectedReturns) {
+TEST(Teaching, UsesTheSuperpixelsAtCorrectedReturns) {
   const LabelModel& model = testing::trainOnYards(ClassifierKind::Boosted);
   const testing::Yard yard = makeYardWithRoofs(11), held_out = makeYardWithRoofs(12);
   const std::vector<std::uint32_t> patches = makePatches(yard.scene, {});
@@ -117,7 +117,7 @@ TEST(Teaching, LearnsTheSuperpixelsAtCorrectedReturns) {
   EXPECT_GT(f1(taught, held_out, SceneClass::Vehicle), 0.8);
 }
 
-TEST(Teaching, KeepsAnswersThatNobodyCorrectedUnlessThePlaceIsNew) {
+TEST(Teaching, KeepsUncorrectedLabelsUnlessThePlaceIsNew) {
   const LabelModel& model = testing::trainOnYards(ClassifierKind::Boosted);
   const auto anchorsOf = [&](const testing::Yard& yard) {
     std::size_t lawn = 0;  // paved ground, far from the wall

@@ -45,7 +45,7 @@ TreeSettings forestSettings() {
   return settings;
 }
 
-TEST(TreeTraining, LearnsExclusiveOrAndMissingValues) {
+TEST(TreeTraining, FitsExclusiveOrAndMissingValues) {
   const CodedSamples samples = makeExclusiveOr(4000, 1), others = makeExclusiveOr(4000, 2);
   EXPECT_GT(shareRight(trainBoosted(samples, {}, 1), others), 0.98);
   EXPECT_GT(shareRight(trainForest(samples, forestSettings(), 1), others), 0.98);

@@ -135,7 +135,7 @@ TEST(SimSource, CorruptFramesAreCountedAndNotPublished) {
   EXPECT_LT(longestGap(run.at), 0.7);
 }
 
-TEST(SimSource, APowerCycleForgetsRegistersAndTheDriverSetsThemAgain) {
+TEST(SimSource, APowerCycleClearsRegistersAndTheDriverRestoresThem) {
   const StereoRun run = runStereo({{SimCameraFault::Kind::Power, 5.0, 2.0}}, 14.0);
   EXPECT_EQ(run.reconnections, 1);
   EXPECT_LT(longestGap(run.at), 2.0 + 2.5);
@@ -182,7 +182,7 @@ TEST(SimSource, FramesOfALadybugComeBackInColour) {
   }
 }
 
-TEST(SimSource, FramesThatNobodyFetchesAreLost) {
+TEST(SimSource, FramesThatAreNotFetchedAreLost) {
   SteppedCamera stepped(makeStereoOptions({}), Bytes(kBb2FrameSize), 0.05, 400);
   Bb2Camera camera(stepped.source, {});
   std::string error;

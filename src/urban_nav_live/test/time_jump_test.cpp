@@ -16,7 +16,7 @@ TEST(TimeJumpDetector, ToleratesLateStamps) {
   EXPECT_EQ(detector.newest(), kClockStart + 5 * kMaxStepBack);
 }
 
-TEST(TimeJumpDetector, DetectsAJumpOnceAndStartsAnew) {
+TEST(TimeJumpDetector, DetectsAJumpOnceAndRestarts) {
   TimeJumpDetector detector;
   detector.add(kClockStart);
   EXPECT_TRUE(detector.jumpsBack(kClockStart - kMaxStepBack - 1));

@@ -147,7 +147,7 @@ class CloudSearchTest : public ::testing::Test {
   int driven_ = 0, looks_ = 0, matches_ = 0;
 };
 
-TEST_F(CloudSearchTest, FindsARobotThatDrivesTheOtherWay) {
+TEST_F(CloudSearchTest, FindsARobotInTheOppositeDirection) {
   const World world = urban_nav_core::testing::courtyard(4);
   map(world);
   EXPECT_EQ(search_->places(), 6U) << "28 m";
@@ -164,7 +164,7 @@ TEST_F(CloudSearchTest, FindsARobotThatDrivesTheOtherWay) {
 }
 
 // Two similar courtyards: clouds of one fit the other with an overlap of 0.4.
-TEST_F(CloudSearchTest, KnowsNothingInAnotherCourtyard) {
+TEST_F(CloudSearchTest, FindsNoMatchInAnotherCourtyard) {
   map(urban_nav_core::testing::courtyard(4));
   for (const std::uint64_t seed : {13U, 26U}) {
     localiser_ = Localiser(Parameters());
@@ -177,7 +177,7 @@ TEST_F(CloudSearchTest, KnowsNothingInAnotherCourtyard) {
   }
 }
 
-TEST_F(CloudSearchTest, AsksForNothingWithoutScansOfTheMapOrWhileTheRobotIsSeen) {
+TEST_F(CloudSearchTest, SearchesNothingWithoutScansOfTheMapOrWhileMatched) {
   const World world = urban_nav_core::testing::courtyard(4);
   map(world, false);
   EXPECT_EQ(search_->places(), 0U);
@@ -185,7 +185,7 @@ TEST_F(CloudSearchTest, AsksForNothingWithoutScansOfTheMapOrWhileTheRobotIsSeen)
   EXPECT_EQ(looks_, 0);
 }
 
-TEST_F(CloudSearchTest, AStretchWithoutBeamsIsNoSighting) {
+TEST_F(CloudSearchTest, AStretchWithoutBeamsIsNoMatch) {
   const World world = urban_nav_core::testing::courtyard(4);
   map(world);
   for (int i = 1; i <= 80; ++i) ASSERT_TRUE(localiser_.addOdometry(stepTo(i, back(i - 1), back(i), kDay)));

@@ -55,14 +55,14 @@ class LocaliserTest : public ::testing::Test {
   StampNs now_ = 0;
 };
 
-TEST_F(LocaliserTest, KnowsNothingAtFirst) {
+TEST_F(LocaliserTest, IsUnsureAtFirst) {
   EXPECT_EQ(localiser_.now().state, LocalizationState::Uncertain);
   drive(3);
   EXPECT_EQ(localiser_.now().state, LocalizationState::Uncertain);
   EXPECT_FALSE(localiser_.now().T_map_base);
 }
 
-TEST_F(LocaliserTest, OneSightingIsAGuessAndTwoThatAgreeAreKnown) {
+TEST_F(LocaliserTest, OneMatchIsAHypothesisAndTwoConsistentOnesAreKnown) {
   drive(3);
   see(1);
   EXPECT_EQ(localiser_.now().state, LocalizationState::Uncertain);
@@ -73,14 +73,14 @@ TEST_F(LocaliserTest, OneSightingIsAGuessAndTwoThatAgreeAreKnown) {
   expectRight(0.01);
 }
 
-TEST_F(LocaliserTest, TheSamePlaceTwiceIsOneWitness) {
+TEST_F(LocaliserTest, TheSamePlaceTwiceCountsOnce) {
   drive(3);
   see(3);
   see(3);
   EXPECT_EQ(localiser_.now().state, LocalizationState::Uncertain);
 }
 
-TEST_F(LocaliserTest, OneFalseSightingMovesNothing) {
+TEST_F(LocaliserTest, OneFalseMatchMovesNothing) {
   drive(8);
   for (const int second : {1, 3, 5}) see(second);
   see(7, poseAt(20.0, -3.0));
@@ -118,7 +118,7 @@ TEST_F(LocaliserTest, OdometryWearsOut) {
   EXPECT_EQ(before.state, LocalizationState::Localized);
 }
 
-TEST_F(LocaliserTest, SightingsOverManyPlacesAreFusedAndTheCovarianceHolds) {
+TEST_F(LocaliserTest, MatchesOverManyPlacesAreFusedWithACorrectCovariance) {
   urban_nav_core::testing::Dice dice(9);
   drive(20);
   for (int second = 1; second <= 20; ++second) see(second, poseAt(0.05 * dice.normal(), 0.05 * dice.normal()), 0.05);
@@ -127,7 +127,7 @@ TEST_F(LocaliserTest, SightingsOverManyPlacesAreFusedAndTheCovarianceHolds) {
   EXPECT_GT(std::sqrt(localiser_.now().T_map_base->covariance(0, 0)), 0.01);
 }
 
-TEST_F(LocaliserTest, LooksInVainAreANewPlace) {
+TEST_F(LocaliserTest, FailedComparisonsAreANewPlace) {
   drive(5);
   for (const int second : {1, 2, 3}) localiser_.addMiss(second * kSightingSecond, false);
   EXPECT_EQ(localiser_.now().state, LocalizationState::Unmapped);
@@ -152,7 +152,7 @@ TEST_F(LocaliserTest, ARobotThatWasCarriedElsewhereIsFoundAgain) {
   EXPECT_LT(distanceBetween(localiser_.now().T_map_base->pose, elsewhere * truth(40)), 0.05);
 }
 
-TEST_F(LocaliserTest, FalseSightingsBetweenTrueOnesCarryNothing) {
+TEST_F(LocaliserTest, FalseMatchesBetweenTrueOnesHaveNoEffect) {
   drive(40);
   for (int second = 1; second <= 40; ++second)
     see(second, second > 30 && second % 3 != 0 ? poseAt(35.0, -12.0) : Pose());
@@ -160,7 +160,7 @@ TEST_F(LocaliserTest, FalseSightingsBetweenTrueOnesCarryNothing) {
   EXPECT_LT(distanceBetween(localiser_.now().T_map_base->pose, truth(40)), 0.05);
 }
 
-TEST_F(LocaliserTest, WhatShouldBeSeenAndIsNotEndsKnown) {
+TEST_F(LocaliserTest, AMissingExpectedMatchEndsKnown) {
   drive(12);
   for (const int second : {1, 3, 5}) see(second);
   for (const int second : {6, 7, 8, 9}) localiser_.addMiss(second * kSightingSecond, false);
@@ -174,7 +174,7 @@ TEST_F(LocaliserTest, WhatShouldBeSeenAndIsNotEndsKnown) {
   expectRight(0.02);
 }
 
-TEST_F(LocaliserTest, WhatLiesFarBackIsForgotten) {
+TEST_F(LocaliserTest, OldMatchesAreDropped) {
   drive(10);
   for (const int second : {1, 3, 5}) see(second);
   drive(30000, 1e-4);
@@ -184,7 +184,7 @@ TEST_F(LocaliserTest, WhatLiesFarBackIsForgotten) {
   expectRight(0.02);
 }
 
-TEST_F(LocaliserTest, ABeliefAloneIsNotKnownAndOneSightingIsNotEnoughForItEither) {
+TEST_F(LocaliserTest, AnInitialPoseIsNotKnownAndOneMatchIsNotEnough) {
   drive(4);
   localiser_.addInitialPose(1 * kSightingSecond, {truth(1), 0.01 * urban_nav_core::Matrix6d::Identity()});
   EXPECT_EQ(localiser_.now().state, LocalizationState::Uncertain);
@@ -196,7 +196,7 @@ TEST_F(LocaliserTest, ABeliefAloneIsNotKnownAndOneSightingIsNotEnoughForItEither
   expectRight(0.02);
 }
 
-TEST_F(LocaliserTest, AVagueBeliefThatAgreesWithSightingsThatDisagreeMakesNothingKnown) {
+TEST_F(LocaliserTest, AnUncertainInitialPoseDoesNotConfirmInconsistentMatches) {
   drive(8);
   see(2, poseAt(1.0, 1.0));
   see(6, poseAt(-1.0, -1.0));
@@ -204,7 +204,7 @@ TEST_F(LocaliserTest, AVagueBeliefThatAgreesWithSightingsThatDisagreeMakesNothin
   EXPECT_EQ(localiser_.now().state, LocalizationState::Uncertain) << localiser_.now().sentence;
 }
 
-TEST_F(LocaliserTest, ABeliefMovesNothingThatWasSeen) {
+TEST_F(LocaliserTest, AnInitialPoseMovesNoMatchedPose) {
   drive(8);
   for (const int second : {1, 3, 5}) see(second);
   const LocalizationEstimate before = localiser_.now();
@@ -214,7 +214,7 @@ TEST_F(LocaliserTest, ABeliefMovesNothingThatWasSeen) {
   expectRight(0.01);
 }
 
-TEST_F(LocaliserTest, ReasonAndProbabilityFollowWhatWasSeen) {
+TEST_F(LocaliserTest, ReasonAndProbabilityFollowTheObservations) {
   drive(10);
   EXPECT_EQ(localiser_.now().reason, LocalizationReason::NoMatch);
   EXPECT_EQ(localiser_.now().probability, 0.0);
@@ -277,7 +277,7 @@ TEST_F(LocaliserTest, WhatIsNotFirmBeginsNothingAndCarriesNothing) {
   expectRight(0.02);
 }
 
-TEST_F(LocaliserTest, AStretchWithoutSightingsIsMeasured) {
+TEST_F(LocaliserTest, AStretchWithoutMatchesIsMeasured) {
   EXPECT_EQ(localiser_.distanceSinceMatch(), 0.0);
   drive(5);
   EXPECT_NEAR(localiser_.distanceSinceMatch(), 5.0, 1e-9);

@@ -143,7 +143,7 @@ TEST_F(MapSearchTest, FindsARobotThatWasCarriedWhileItWasKnown) {
   EXPECT_LT(distanceBetween(localiser_.now().T_map_base->pose, place(17, 0.3)), 0.05);
 }
 
-TEST_F(MapSearchTest, WhatIsNoViewIsALookInVain) {
+TEST_F(MapSearchTest, AnInvalidKeyframeIsAFailedComparison) {
   drive(1);
   const FrozenMap map(*store_);
   MapSearch search(Parameters(), map, *store_, {street_.camera(), Pose()}, retrieval_);

@@ -8,7 +8,7 @@
 namespace urban_nav_registration {
 namespace {
 
-TEST(Parameters, YamlAndReadmeAreAsTheTablesSay) {
+TEST(Parameters, YamlAndReadmeMatchTheTables) {
   EXPECT_EQ(urban_nav_core::testing::findFaults(table().stage(), table().rows()), "");
 }
 

@@ -69,7 +69,7 @@ TEST(MetricClosureMessage, ShowsAFreeDirectionAsALargeCovariance) {
   EXPECT_NEAR(message.covariance[14], 1.0 / 400.0, 1e-9);
 }
 
-TEST(MetricClosureMessage, KnowsEveryMethodAndVerdict) {
+TEST(MetricClosureMessage, ConvertsEveryMethodAndVerdict) {
   for (const ClosureMethod method : {ClosureMethod::None, ClosureMethod::Stereo, ClosureMethod::Icp}) {
     for (const ClosureVerdict verdict : {ClosureVerdict::Accepted, ClosureVerdict::Rejected}) {
       auto one = closure();

@@ -19,7 +19,7 @@ TEST(Diagnostics, HealthHasALevel) {
   EXPECT_EQ(toDiagnosticLevel(Health::Lost), DiagnosticStatus::ERROR);
 }
 
-TEST(Arrival, SaysWhatHasNotComeAndWhatIsSilent) {
+TEST(Arrival, ReportsMissingAndSilentInputs) {
   Arrival arrival("/camera/image");
   EXPECT_EQ(arrival.absence(), "/camera/image has not been received yet");
   EXPECT_EQ(arrival.silence(0.0), "") << "absence is reported separately";

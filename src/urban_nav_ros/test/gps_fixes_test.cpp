@@ -41,7 +41,7 @@ TEST(GpsFixes, WaitForThePlaceOfTheAntenna) {
   EXPECT_EQ(fixes.add(makeFix(3)).size(), 1U);
 }
 
-TEST(GpsFixes, TakeTheOriginWhereNobodyTellsThePlace) {
+TEST(GpsFixes, TakeTheOriginWithoutAPose) {
   GpsFixes fixes("base_link");
   for (int second = 1; second < 60; ++second) EXPECT_TRUE(fixes.add(makeFix(second)).empty());
   const auto made = fixes.add(makeFix(60));

@@ -35,7 +35,7 @@ TEST(ToGrey, WeighsColoursByTheirNames) {
   EXPECT_EQ(toGrey(message("bgra8", 1, 1, {255, 0, 0, 7})).pixels.at<std::uint8_t>(0, 0), 29);
 }
 
-TEST(ToGrey, KnowsWhichPixelOfAMosaicIsRed) {
+TEST(ToGrey, FindsTheRedPixelOfAMosaic) {
   // Pure red light: the red pixels are bright, the others dark. Grey is 0.299 red if the pattern is interpreted
   // correctly.
   const auto mosaic = [](int red_u, int red_v) {
@@ -81,7 +81,7 @@ TEST(ToGrey, ReadsDeepColour) {
   EXPECT_NEAR(toGrey(big, {0.0, 16.0}).pixels.at<std::uint8_t>(0, 0), 0.299 * 255, 1.0);
 }
 
-TEST(ToGrey, SaysWhatIsWrong) {
+TEST(ToGrey, ReportsFaults) {
   EXPECT_NE(toGrey(message("32FC1", 1, 1, {1, 2, 3, 4})).fault.find("mono8"), std::string::npos)
       << "lists the supported encodings";
   EXPECT_FALSE(toGrey(message("mono8", 4, 4, std::vector<std::uint8_t>(15), 4)).fault.empty());

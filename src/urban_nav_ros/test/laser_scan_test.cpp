@@ -10,7 +10,7 @@
 namespace urban_nav_ros {
 namespace {
 
-TEST(LaserScan, SaysAllThatATurnSays) {
+TEST(LaserScan, ConvertsAllValuesOfATurn) {
   urban_nav_core::PlanarScan scan;
   scan.stamp = 1'225'719'873'123'456'789;
   scan.angle_first = -1.5;

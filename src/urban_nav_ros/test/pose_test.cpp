@@ -15,7 +15,7 @@ using urban_nav_core::Health;
 using urban_nav_core::Pose;
 using urban_nav_core::Vector3d;
 
-TEST(Stamp, IsExactBothWays) {
+TEST(Stamp, IsExactInBothDirections) {
   for (const urban_nav_core::StampNs stamp : {0LL, 1LL, 1225719873501685001LL, 4294967295999999999LL})
     EXPECT_EQ(toStampNs(toRosTime(stamp)), stamp);
   EXPECT_EQ(toStampNs(toRosTime(-5)), 0);
@@ -93,7 +93,7 @@ TEST(RelativePoseMessage, CarriesConstantsOfTheRig) {
   EXPECT_FALSE(toRelativePose(message));
 }
 
-TEST(HealthMessage, KnowsFourStates) {
+TEST(HealthMessage, ConvertsFourStates) {
   for (const Health health : {Health::Ok, Health::Degraded, Health::Lost, Health::Recovered})
     EXPECT_EQ(toHealth(toMessage(health)), health);
   EXPECT_FALSE(toHealth(4));

@@ -90,7 +90,7 @@ TEST(StereoFeed, LiveAPairLeavesWithItsSecondImage) {
   EXPECT_EQ(drain(feed).size(), 1U);
 }
 
-TEST(StereoFeed, AnImageThatIsMissingOrDamagedLeavesAPairThatSaysSo) {
+TEST(StereoFeed, AMissingOrDamagedImageIsReportedByItsPair) {
   StereoFeed feed(StereoFeed::Options(), calibration());
   feed.add(Side::Left, image(1000 * kMs, 1));
   feed.add(Side::Left, image(1100 * kMs, 1));

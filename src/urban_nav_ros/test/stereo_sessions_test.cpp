@@ -224,7 +224,7 @@ TEST(StereoSessions, CountDamagedImages) {
   EXPECT_FALSE(report.figures.empty());
 }
 
-TEST(StereoSessions, AnEndWithoutDeliveryForgetsWhatWaits) {
+TEST(StereoSessions, AnEndWithoutDeliveryDropsWaitingInputs) {
   Kept kept;
   kept.calibrate();
   kept.show(kSessionStart);

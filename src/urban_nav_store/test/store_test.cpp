@@ -87,7 +87,7 @@ TEST(Store, ReadingChangesNoByte) {
   EXPECT_EQ(readFile(path), bytes);
 }
 
-TEST(Store, AReaderSeesWhatALiveWriterHasCommitted) {
+TEST(Store, AReaderReadsCommitsOfALiveWriter) {
   const Folder folder;
   const std::string path = folder.file("s.db");
   Store writer(path, Access::Write);
@@ -112,7 +112,7 @@ TEST(Store, HasOneWriter) {
   EXPECT_NO_THROW(Store(path, Access::Write));
 }
 
-TEST(Store, SaysThatItIsClosed) {
+TEST(Store, ReportsThatItIsClosed) {
   const Folder folder;
   const std::string path = folder.file("s.db");
   Store store(path, Access::Write);
@@ -158,7 +158,7 @@ TEST(Store, LeavesOtherFilesAlone) {
   EXPECT_EQ(folder.files(), 3U);
 }
 
-TEST(Store, SaysWhereItCannotBe) {
+TEST(Store, ReportsAnUnusablePath) {
   const Folder folder;
   const std::string nowhere = folder.file("no/such/folder/s.db"), absent = folder.file("absent.db");
   expectError([&] { Store(nowhere, Access::Write); }, nowhere, "cannot be written");

@@ -79,7 +79,7 @@ TEST(OffsetMonitor, NamesAKnockWithItsTimeAndSizeWithinASecond) {
   }
 }
 
-TEST(OffsetMonitor, SeesASecondKnock) {
+TEST(OffsetMonitor, DetectsASecondKnock) {
   OffsetMonitor monitor({});
   Session session(3);
   session.drive(monitor, 200);

@@ -9,7 +9,7 @@
 namespace urban_nav_trust {
 namespace {
 
-TEST(Parameters, YamlAndReadmeAreAsTheTablesSay) {
+TEST(Parameters, YamlAndReadmeMatchTheTables) {
   EXPECT_EQ(urban_nav_core::testing::findFaults(table().stage(), table().rows(), nodeletTable().rows()), "");
 }
 

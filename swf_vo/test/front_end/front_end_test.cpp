@@ -100,7 +100,7 @@ TEST(FrontEnd, FollowsLandmarksThroughARoom) {
   }
 }
 
-TEST(FrontEnd, BearsARightImageWhoseRowsLieLower) {
+TEST(FrontEnd, ToleratesARightImageWithARowOffset) {
   RenderedSequence sequence = room(20.0);
   const StereoCamera camera = makeCamera(sequence.options().camera);
   for (const int lower : {-1, 1, 2}) {
@@ -132,7 +132,7 @@ TEST(FrontEnd, BearsARightImageWhoseRowsLieLower) {
   }
 }
 
-TEST(FrontEnd, FirstObservationsAreAsGoodAsTheySay) {
+TEST(FrontEnd, FirstObservationsHaveTheirStatedAccuracy) {
   RenderedSequence sequence = room(20.0);
   const StereoCamera camera = makeCamera(sequence.options().camera);
   Bench bench(camera);

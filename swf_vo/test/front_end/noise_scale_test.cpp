@@ -40,7 +40,7 @@ TEST(NoiseScale, FindsWhatAllAreOffBy) {
   EXPECT_NEAR(mean, 4.0, 0.2);
 }
 
-TEST(NoiseScale, TellsThemApart) {
+TEST(NoiseScale, DistinguishesThem) {
   const Seen seen(60, [](int i) { return i % 3 == 0 ? 4.0 : 1.2; });
   EXPECT_LT(seen.scale.typical(), 4.0) << "most are good";
   for (int i = 0; i < kLandmarks; ++i) {
@@ -50,7 +50,7 @@ TEST(NoiseScale, TellsThemApart) {
   }
 }
 
-TEST(NoiseScale, BelievesNoMoreThanWasClaimed) {
+TEST(NoiseScale, NeverReducesTheStatedNoise) {
   const Seen seen(100, [](int) { return 0.5; });
   EXPECT_EQ(seen.scale.typical(), 1.0);
   for (const auto& own : seen.own) EXPECT_EQ(seen.scale.of(own), 1.0);

@@ -20,7 +20,7 @@ TEST(PatchResidualTest, LetsNoiseThroughAndStopsWhatIsTwoSurfaces) {
   }
 }
 
-TEST(PatchResidualTest, LearnsThatTheLightHasChanged) {
+TEST(PatchResidualTest, AdaptsToAChangeOfLight) {
   PatchResidualTest misfit;
   for (int i = 0; i < 500; ++i) misfit.isTypical(1.0 + 0.001 * (i % 50));
   EXPECT_FALSE(misfit.isTypical(4.0));
@@ -28,7 +28,7 @@ TEST(PatchResidualTest, LearnsThatTheLightHasChanged) {
   EXPECT_TRUE(misfit.isTypical(4.0));
 }
 
-TEST(PatchResidualTest, SaysNothingBeforeItKnows) {
+TEST(PatchResidualTest, ReportsNothingWithoutEnoughData) {
   PatchResidualTest misfit;
   EXPECT_TRUE(misfit.isTypical(1.0));
   EXPECT_TRUE(misfit.isTypical(100.0));

@@ -46,7 +46,7 @@ RigConstants learnRig(const RigTruth& rig, int frames, std::uint32_t seed = 1) {
   return rows.evaluate();
 }
 
-TEST(RigRows, KnowsItsPriorsBeforeAnythingIsSeen) {
+TEST(RigRows, ReturnsItsPriorsBeforeAnyMeasurement) {
   RigRows rows(kRigPriors, kRigCamera);
   EXPECT_EQ(rows.evaluate().roll_rad, 0.0);
   rows.learn();
@@ -54,7 +54,7 @@ TEST(RigRows, KnowsItsPriorsBeforeAnythingIsSeen) {
   EXPECT_NEAR(rows.evaluate().delay_sigma_s, kRigPriors.delay_s, 1e-9);
 }
 
-TEST(RigRows, FindsRollAndDelayBesideAnOffset) {
+TEST(RigRows, FindsRollAndDelayDespiteAnOffset) {
   const RigConstants found = learnRig({-0.7, 8e-4, -3e-4}, 300);
   EXPECT_NEAR(found.roll_rad, 8e-4, 3e-5);
   EXPECT_NEAR(found.delay_s, -3e-4, 3e-5);
@@ -74,7 +74,7 @@ TEST(RigRows, OutliersDoNotCarryItAway) {
   EXPECT_NEAR(found.delay_s, 1e-4, 6e-5);
 }
 
-TEST(RigRows, StandingStillSaysNothingOfTheDelay) {
+TEST(RigRows, AtRestTheDelayIsNotObservable) {
   RigTruth rig{0.1, 5e-4, 3e-3};
   rig.moving = false;
   const RigConstants found = learnRig(rig, 300);

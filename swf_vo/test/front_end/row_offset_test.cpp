@@ -8,7 +8,7 @@
 namespace swf_vo {
 namespace {
 
-TEST(RowOffset, IsWhatMostMatchesOfAFrameSay) {
+TEST(RowOffset, IsTheOffsetOfMostMatchesOfAFrame) {
   RowOffset rows(100);
   EXPECT_FALSE(rows.isKnown());
   for (int i = 0; i < 60; ++i) rows.see(0.7 + 0.01 * (i % 3 - 1));
@@ -19,7 +19,7 @@ TEST(RowOffset, IsWhatMostMatchesOfAFrameSay) {
   EXPECT_NEAR(rows.px(), 0.7, 0.011);
 }
 
-TEST(RowOffset, AFewMatchesSayNothing) {
+TEST(RowOffset, AFewMatchesAreNotUsed) {
   RowOffset rows(100);
   for (int i = 0; i < 10; ++i) rows.see(3.0);
   rows.learn();

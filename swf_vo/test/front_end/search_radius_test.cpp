@@ -44,7 +44,7 @@ TEST(SearchRadius, IsNeverWiderThanWhereNothingIsKnown) {
   EXPECT_LE(radius.px(), radius.anywhere());
 }
 
-TEST(SearchRadius, LandmarksBehindTheCameraDoNotCount) {
+TEST(SearchRadius, LandmarksWithNegativeDepthDoNotCount) {
   SearchRadius radius = makeRadius();
   radius.setUsual();
   radius.setLimit(0.15, Pose(), landmarksAt({-2.0, -0.1}));

@@ -119,7 +119,7 @@ TEST_F(TwoFrames, NothingIsFoundWhereTheLandmarksAreNot) {
   for (const Match& match : matches_) EXPECT_FALSE(match.left.found || match.right.found);
 }
 
-TEST(ProjectInto, AgreesWithTheCameraAndKnowsInfinity) {
+TEST(ProjectInto, AgreesWithTheCameraAlsoAtInfinity) {
   const StereoCamera camera = makeCamera(smallCamera().camera);
   const Eigen::Vector3d p(0.5, -0.2, 4.0);
   const auto z = camera.project(p);

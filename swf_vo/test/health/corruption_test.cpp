@@ -138,7 +138,7 @@ TEST(LooksCorrupted, IsNoMatterOfTheImagesPlaceInMemory) {
   EXPECT_FALSE(looksCorrupted(toView(room()(cv::Rect(7, 5, 101, 77)))));
 }
 
-TEST(LooksCorrupted, NeverSaysSoOfRealImages) {
+TEST(LooksCorrupted, AcceptsRealImages) {
   for (const char* name : {"stereo/kitti06_000_050", "stereo/kitti_raw_0926_0005"}) {
     const std::string folder = dataFolder(name);
     if (folder.empty()) GTEST_SKIP() << "URBAN_NAV_DATA names no folder with " << name;
@@ -189,7 +189,7 @@ TEST(CorruptRowRepair, BridgesRubbishAndNothingElse) {
 
 // Neither saturated strips nor missing rows have texture: corrupted rows are found within the former, and good rows are
 // kept next to the latter.
-TEST(CorruptRowRepair, TellsAWhiteSkyFromMissingRows) {
+TEST(CorruptRowRepair, DistinguishesAWhiteSkyFromMissingRows) {
   cv::Mat white = room();
   white.rowRange(0, 100).setTo(255);
   CorruptRowRepair row_repair(white.cols, white.rows);

@@ -44,7 +44,7 @@ TEST(HealthMonitor, IsLostWithoutMatchesThenRecoveredForOneFrame) {
   EXPECT_EQ(monitor.judge(good()).health, Health::Ok);
 }
 
-TEST(HealthMonitor, DegradesWithFewMatchesAndSaysWhy) {
+TEST(HealthMonitor, DegradesWithFewMatchesAndStatesTheReason) {
   const Parameters parameters;
   HealthMonitor monitor{parameters};
   Evidence few = good();
@@ -102,7 +102,7 @@ TEST(HealthMonitor, NamesRubbishWhereTheRestIsGood) {
   EXPECT_EQ(monitor.judge(evidence).reason, static_cast<int>(Reason::Corrupted));
 }
 
-TEST(HealthMonitor, TheFirstFrameIsJudgedByItsFeatures) {
+TEST(HealthMonitor, TheFirstFrameIsAssessedByItsFeatures) {
   HealthMonitor monitor{Parameters()};
   Evidence first;
   first.first = true;

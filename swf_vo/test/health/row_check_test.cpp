@@ -40,7 +40,7 @@ TEST(RowCheck, RectifiedRowsAgree) {
   EXPECT_LE(*disagree, 1.0);
 }
 
-TEST(RowCheck, SaysHowFarAnImageIsShifted) {
+TEST(RowCheck, ReportsTheShiftOfAnImage) {
   for (const double lower : {-17.0, -6.0, 3.0, 12.0}) {
     StereoFrame frame = roomPair();
     frame.right = displaced(frame.right, 0.0, lower);
@@ -52,7 +52,7 @@ TEST(RowCheck, SaysHowFarAnImageIsShifted) {
 }
 
 // A quarter of the width is the median distance of an image's pixels from the axis.
-TEST(RowCheck, SeesARoll) {
+TEST(RowCheck, DetectsARoll) {
   constexpr double kRoll = 0.05;
   StereoFrame frame = roomPair();
   frame.right = displaced(frame.right, kRoll, 0.0);
@@ -61,7 +61,7 @@ TEST(RowCheck, SeesARoll) {
   EXPECT_NEAR(*disagree, kRoll * 0.25 * frame.left.width, 0.5 * kRoll * 0.25 * frame.left.width);
 }
 
-TEST(RowCheck, SaysNothingOfImagesThatAreNoPair) {
+TEST(RowCheck, ReportsNothingForUnrelatedImages) {
   StereoFrame frame = roomPair();
   std::fill(frame.right.pixels.begin(), frame.right.pixels.end(), std::uint8_t{100});
   EXPECT_FALSE(RowCheck().measure(frame.pair()).has_value());

@@ -26,7 +26,7 @@ double largestDifference(const Matrix6d& P, const Matrix6d& Q) {
   return (scale.asDiagonal() * (P - Q) * scale.asDiagonal()).cwiseAbs().maxCoeff();
 }
 
-TEST(Datum, HeldAnewChangesNothing) {
+TEST(Datum, ReplacingTheDatumChangesNothing) {
   // With such small noise the problem is linear, and only the algebra is tested.
   const auto tracks = turning(130, 1e-3);
   WindowOptions often, never;

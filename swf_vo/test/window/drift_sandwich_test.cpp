@@ -112,13 +112,13 @@ TEST(DriftSandwich, CorrectsForLeverage) {
   EXPECT_NEAR(ratio.rotation, 1.0, 0.3);
 }
 
-TEST(DriftSandwich, TellsTranslationFromRotation) {
+TEST(DriftSandwich, DistinguishesTranslationFromRotation) {
   const DriftSandwich::Ratio ratio = learnt(60, 60, {2.0, 0.7});
   EXPECT_NEAR(ratio.translation, 4.0, 1.0);
   EXPECT_NEAR(ratio.rotation, 0.49, 0.15);
 }
 
-TEST(DriftSandwich, SeesWhatASurfaceShares) {
+TEST(DriftSandwich, ContainsErrorsCommonToASurface) {
   const Generations shared = generations(400, 60, {1.0, 1.0, 6.0});
   const double truth = shared.squared / shared.stated;
   EXPECT_GT(truth, 4.0);
@@ -134,7 +134,7 @@ TEST(DriftSandwich, FewLandmarksLeaveTheModelAsItIs) {
   EXPECT_NEAR(many.ratio().rotation, 9.0, 2.5);
 }
 
-TEST(DriftSandwich, ForgetsAsTheViewChanges) {
+TEST(DriftSandwich, DecaysAsTheViewChanges) {
   const DriftSandwich before = generations(60, 60, {3.0, 3.0}).sandwich;
   DriftSandwich standing = before;
   standing.advance(0.0);

@@ -74,7 +74,7 @@ TEST(DriftingLandmarks, LeavesWhatKeepsStillAlone) {
   EXPECT_LT(called, landmarks / 50);
 }
 
-TEST(DriftingLandmarks, JudgesNothingWithoutKnowingHowWellItWasAligned) {
+TEST(DriftingLandmarks, TestsNothingWithoutTheAlignmentCovariance) {
   const auto tracks = simulateTracks(sixtyFeatures(5));
   TrackRunner run(tracks, WindowOptions());
   while (!run.done()) {

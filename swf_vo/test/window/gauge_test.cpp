@@ -62,7 +62,7 @@ TEST(Gauge, MovesALandmarkAsTheWorldMoves) {
   }
 }
 
-TEST(Gauge, IsSeenByNoTerm) {
+TEST(Gauge, HasNoInformationFromAnyTerm) {
   const Anchor anchor = someAnchor();
   const Vector3d theta(0.2, -0.3, 0.15);
   const SensorModel sensor(urban_nav_core::testing::simulateTracks({}).camera);

@@ -75,7 +75,7 @@ TEST(LandmarkProcessNoise, AddsItsCovarianceToThatOfTheBlocksThatMovedAndNothing
   EXPECT_GT((full(prior) - before).norm(), 1e-3) << "something has happened";
 }
 
-TEST(LandmarkProcessNoise, KeepsWhatTheDepartedPoseOwes) {
+TEST(LandmarkProcessNoise, KeepsTheCrossTermsOfTheMarginalisedPose) {
   // d_left = gain d + offset_gain o, with d before the step; expressed in d + w it has the same covariance with it.
   Prior prior = somePrior(false);
   const int n = prior.size();

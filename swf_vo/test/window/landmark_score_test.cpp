@@ -116,7 +116,7 @@ TEST(LandmarkScore, LandmarksTogetherFindDriftAndOffset) {
   EXPECT_NEAR(found[6], -kOffsetPx, 0.05 * kOffsetPx) << "a larger offset shifts the right image to the left";
 }
 
-TEST(LandmarkScore, IsSaidAboutTheCamera) {
+TEST(LandmarkScore, RefersToTheCamera) {
   Vector6d drift;
   drift << 0.004, -0.003, 0.006, 0.001, 0.002, -0.0015;
   const DriftScore first = SeenLandmark({0.5, 0.2, 4.0}, 10, drift).score().evaluate(Pose());
@@ -175,7 +175,7 @@ TEST(LandmarkScore, AgeingLosesInformationAndIsAdditive) {
   EXPECT_LT((a.information - fresh).norm(), 1e-9 * fresh.norm());
 }
 
-TEST(LandmarkScore, AgedBetweenMeasurementsItKnowsLess) {
+TEST(LandmarkScore, ProcessNoiseReducesItsInformation) {
   const SeenLandmark seen({0.5, 0.2, 4.0}, 10, Vector6d::Zero(), 0.3);
   const Cost cost(SensorModel(camera()), 0.0, true);
   LandmarkScore aged;

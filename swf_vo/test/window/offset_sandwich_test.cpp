@@ -77,7 +77,7 @@ TEST(OffsetSandwich, FollowsTheVarianceOfErrors) {
   EXPECT_NEAR(std::log(three / one) / std::log(9.0), 1.0, 0.15);
 }
 
-TEST(OffsetSandwich, SeesWhatAPlaceShares) {
+TEST(OffsetSandwich, ContainsErrorsCommonToAPlace) {
   const double alone = learnOffset(4000, {}).ratio(1.0), shared = learnOffset(4000, {1.0, 2.0}).ratio(1.0);
   EXPECT_GT(shared, 3.0 * alone);
 }
@@ -116,7 +116,7 @@ StatedOffsets statedOffsets(bool robust) {
 }
 
 // Without model errors, the estimate is far more accurate than its reduced information.
-TEST(OffsetSandwich, StatesHowWellAWindowKnowsTheOffset) {
+TEST(OffsetSandwich, StatesTheAccuracyOfTheOffset) {
   const StatedOffsets model = statedOffsets(false), robust = statedOffsets(true);
   EXPECT_EQ(model.squared, robust.squared);
   EXPECT_LT(model.squared / model.stated, 0.5);

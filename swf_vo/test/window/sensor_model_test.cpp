@@ -96,7 +96,7 @@ TEST(SensorModel, MovingEverythingTogetherChangesNothing) {
   EXPECT_LT((at.pose() * pose_moves + at.landmark * by_point * point_moves).norm(), 1e-6 * at.pose().norm());
 }
 
-TEST(SensorModel, RefusesWhatIsBehind) {
+TEST(SensorModel, RejectsNegativeDepth) {
   const ModelScene scene;
   Vector3d z;
   SensorModel::Linearised at;

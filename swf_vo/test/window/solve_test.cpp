@@ -79,11 +79,11 @@ void expectSame(const System& system, bool datum) {
     }
 }
 
-TEST(Solver, BothWaysGiveTheSame) { expectSame(systemAfter(30, 8, 20), false); }
-TEST(Solver, BothWaysGiveTheSameWithoutAPriorMap) { expectSame(systemAfter(9, 12, 20), false); }
-TEST(Solver, BothWaysGiveTheSameWithADatum) { expectSame(systemAfter(30, 8, 20, false), true); }
+TEST(Solver, BothEliminationsGiveTheSame) { expectSame(systemAfter(30, 8, 20), false); }
+TEST(Solver, BothEliminationsGiveTheSameWithoutAPriorMap) { expectSame(systemAfter(9, 12, 20), false); }
+TEST(Solver, BothEliminationsGiveTheSameWithADatum) { expectSame(systemAfter(30, 8, 20, false), true); }
 
-TEST(Solver, ChoosesTheCheaperWay) {
+TEST(Solver, ChoosesTheCheaperElimination) {
   const System many_landmarks = systemAfter(30, 8, 40);
   Solver solver;
   solver.factor(many_landmarks.state, many_landmarks.prior, many_landmarks.equations, false);

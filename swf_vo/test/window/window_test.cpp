@@ -104,7 +104,7 @@ TEST(Window, IsConsistent) {
 }
 
 // A correct calibration is kept, and a wrong one is overruled by the images.
-TEST(Window, LearnsWhatTheCalibrationGotWrong) {
+TEST(Window, EstimatesTheErrorOfTheCalibration) {
   for (const double offset : {0.0, 0.1, 0.8}) {
     urban_nav_core::testing::TrackOptions motion = makeTracks(120, 0.1);
     motion.features = 60;
@@ -120,7 +120,7 @@ TEST(Window, LearnsWhatTheCalibrationGotWrong) {
   }
 }
 
-TEST(Window, GoesOnByPredictionWhereNothingIsSeen) {
+TEST(Window, ContinuesByPredictionWithoutObservations) {
   const auto tracks = simulateTracks(makeTracks(60, 0.5));
   TrackRunner run(tracks, WindowOptions());
   for (int i = 0; i < 20; ++i) run.step();

@@ -133,7 +133,7 @@ TEST(RunListener, ReceivesLinesAndEveryStepInPlaceOfTheTerminal) {
   EXPECT_EQ(kept.steps, (std::vector<std::string>{"vo 1/2", "vo 2/2", "vo 2/2"}));
 }
 
-TEST(CommandLine, TellsItsVersion) {
+TEST(CommandLine, PrintsItsVersion) {
   ::testing::internal::CaptureStdout();
   EXPECT_EQ(call({}, {"--version"}), 0);
   const std::string text = ::testing::internal::GetCapturedStdout();
@@ -163,7 +163,7 @@ TEST(CommandLine, RunsTheActionOfACommandThatHasActions) {
   EXPECT_EQ(call({group}, {"group", "first", "x"}), 2) << "--out is missing";
 }
 
-TEST(CommandLine, TellsMistakesOfTheUserFromFaultsOfTheData) {
+TEST(CommandLine, DistinguishesErrorsOfTheUserFromFaultsOfTheData) {
   const Command fine = probe([](const Arguments&) { return 0; });
   EXPECT_EQ(call({fine}, {}), 2);
   EXPECT_EQ(call({fine}, {"--help"}), 0);
@@ -183,7 +183,7 @@ TEST(CommandLine, TellsMistakesOfTheUserFromFaultsOfTheData) {
             1);
 }
 
-TEST(CommandLine, KnowsTheParametersOfItsStages) {
+TEST(CommandLine, AcceptsTheParametersOfItsStages) {
   EXPECT_EQ(call({mapCommand(makeStages)}, {"map", "--help", "--set", "swf_vo.window=25"}), 0);
   EXPECT_EQ(call({mapCommand(makeStages)}, {"map", "--help", "--set", "swf_vo.window=0"}), 2);
   EXPECT_EQ(call({mapCommand(makeStages)}, {"map", "--help", "--set", "swf_vo.widow=3"}), 2);

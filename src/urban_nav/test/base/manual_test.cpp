@@ -58,7 +58,7 @@ TEST(Completion, OffersCommandsActionsOptionsAndWords) {
   EXPECT_EQ(complete(someCommands(), "urban_nav group act --f", 3), "--fast");
 }
 
-TEST(Completion, KnowsTheCommandsOfTheProgram) {
+TEST(Completion, DocumentsTheCommandsOfTheProgram) {
   EXPECT_EQ(complete(allCommands(), "urban_nav ma", 1), "map");
   EXPECT_EQ(complete(allCommands(), "urban_nav places que", 2), "query");
   EXPECT_EQ(complete(allCommands(), "urban_nav relax --robust o", 3), "on off");

@@ -52,7 +52,7 @@ TEST_F(ParameterSetTest, HoldsEachTableOnceAndStartsWithDefaults) {
   EXPECT_EQ(set.get(roof()).shape, "flat");
 }
 
-TEST_F(ParameterSetTest, AssignsInOrderAndRemembersOrigins) {
+TEST_F(ParameterSetTest, AssignsInOrderAndKeepsOrigins) {
   set.load({urban_nav_core::parseSetting("walls.height=3"), urban_nav_core::parseSetting("roof.shape=steep")});
   set.set("walls.height=4.5");
   EXPECT_EQ(set.get(walls()).height, 4.5);

@@ -156,7 +156,7 @@ TEST(Evaluation, ReadsEurocsGroundTruth) {
   EXPECT_NE(file.notes[0].find("1 poses left out"), std::string::npos);
 }
 
-TEST(Evaluation, SeesAScale) {
+TEST(Evaluation, DetectsAScale) {
   const TemporaryFolder folder;
   urban_nav_core::writeTum(folder.file("a.tum"), curve(0, 1.0));
   urban_nav_core::writeTum(folder.file("b.tum"), curve(0, 1.02));
@@ -168,7 +168,7 @@ TEST(Evaluation, SeesAScale) {
   EXPECT_GT(evaluation.se3.rmse, 1e-3);
 }
 
-TEST(Evaluation, OfTheEndIsOfTheLastPoseAloneSeenFromTheFirst) {
+TEST(Evaluation, OfTheEndIsThatOfTheLastPoseRelativeToTheFirst) {
   const TemporaryFolder folder;
   const Trajectory truth = curve(0, 1.0);
   // Another world frame, and each pose but the first off by 0.3 m and 2 deg; only the last one's covariance may count.

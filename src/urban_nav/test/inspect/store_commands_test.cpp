@@ -70,7 +70,7 @@ class StoreCommands : public ::testing::Test {
 };
 std::unique_ptr<TemporaryFolder> StoreCommands::shared_;
 
-TEST_F(StoreCommands, InfoSaysWhatIsInAStore) {
+TEST_F(StoreCommands, InfoListsTheContentsOfAStore) {
   const StoreInfo info = readStoreInfo(file("both/session.db"));
   ASSERT_EQ(info.sessions.size(), 2U);
   EXPECT_EQ(info.joined.size(), 2U) << "nothing joins them";

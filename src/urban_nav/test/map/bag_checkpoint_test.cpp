@@ -25,7 +25,7 @@ TEST(BagCheckpointTest, ComesBack) {
     EXPECT_THROW(unpackBagCheckpoint(bytes.substr(0, i)), urban_nav_core::DataError) << i;
 }
 
-TEST(BagCheckpointTest, ReadsTheVersionThatKnewVisualOdometryAlone) {
+TEST(BagCheckpointTest, ReadsTheVersionWithVisualOdometryOnly) {
   urban_nav_core::Archive archive;
   std::vector<std::string> bags = {"a"};
   urban_nav_core::StampNs receipt = kEnd;
@@ -38,7 +38,7 @@ TEST(BagCheckpointTest, ReadsTheVersionThatKnewVisualOdometryAlone) {
   EXPECT_EQ(back.stages, (std::vector<BagCheckpoint::StageState>{{"swf_vo", "vo"}}));
 }
 
-TEST(BagCheckpointTest, KnowsWhichBagsFollow) {
+TEST(BagCheckpointTest, DetectsConsecutiveBags) {
   const BagCheckpoint state{{"a", "b"}, kEnd, "", {}};
   const auto covered = [&](const std::vector<std::string>& bags, double seconds) {
     return coveredBags(state, bags, kEnd + static_cast<urban_nav_core::StampNs>(1e9 * seconds));

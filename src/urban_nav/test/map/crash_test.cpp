@@ -101,7 +101,7 @@ TEST_F(Killed, EndsWithTheBytesOfAnUnbrokenRun) {
   EXPECT_GT(resumed, 0) << "else the test says nothing";
 }
 
-TEST_F(Killed, BeginsAnewWhereTheResultWouldBeAnother) {
+TEST_F(Killed, RestartsIfTheResultWouldDiffer) {
   makeInputs({8, 10, 9});
   const std::string out = folder.file("out");
   // As if it was killed when all was done but the report: the last thing that is written, into a folder that cannot be

@@ -72,7 +72,7 @@ TEST_F(Map, WritesAPosePerFrameNearTheTruth) {
     EXPECT_FALSE(readFile(out() + "/" + name).empty()) << name;
 }
 
-TEST_F(Map, SaysWhatTheContractAsksFor) {
+TEST_F(Map, HasThePromisedContent) {
   const std::string summary = readFile(out() + "/summary.json");
   for (const char* key :
        {"wall_s",        "cpu_s",     "peak_rss_bytes", "realtime_factor", "distance_m",        "frames",
@@ -150,7 +150,7 @@ TEST_F(Map, GoesOnOverADamagedImageAndNamesIt) {
   EXPECT_NE(readFile(folder.file("out/summary.json")).find("000008.png"), std::string::npos);
 }
 
-TEST_F(Map, SaysThatTheCamerasAreExchanged) {
+TEST_F(Map, ReportsExchangedCameras) {
   const TemporaryFolder folder;
   fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
   fs::rename(folder.file("in/image_0"), folder.file("in/left"));
@@ -211,7 +211,7 @@ TEST_F(Map, TheMapOfAnotherRecordingIsReplacedOnRequestAlone) {
   EXPECT_NE(readFile(out_folder + "/trajectory.tum"), before);
 }
 
-TEST_F(Map, SaysWhyNoFrameWasOfUse) {
+TEST_F(Map, ReportsWhyNoFrameWasUsable) {
   const TemporaryFolder folder;
   fs::copy(in(), folder.file("in"), fs::copy_options::recursive);
   for (const char* camera : {"image_0", "image_1"})

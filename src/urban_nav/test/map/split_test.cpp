@@ -161,7 +161,7 @@ std::vector<Row> placeRows(const std::string& store) {
   return rows;
 }
 
-TEST_F(Split, KeepsTheWordsOfKeyframesBesidePanoramas) {
+TEST_F(Split, KeepsTheWordsOfKeyframesInAdditionToPanoramas) {
   const auto with_places = [](MapOptions& request) { request.stages = {"vo", "places"}; };
   map({all()}, folder.file("once"), {}, with_places);
   for (int i = 0; i < 3; ++i) map({part(i)}, folder.file("out"), i > 0 ? folder.file("out") : "", with_places);

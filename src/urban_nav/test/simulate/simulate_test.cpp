@@ -233,7 +233,7 @@ TEST(Simulate, AJumpOfStampsIsNoneOfTheRecorder) {
   EXPECT_GT(count, 40);
 }
 
-TEST(Simulate, ViewsOfPixelsAndBeamsLieInTheTruthFolder) {
+TEST(Simulate, ViewsOfPixelsAndBeamsAreInTheTruthFolder) {
   const TemporaryFolder folder;
   SimulateJob job = shortJob(folder);
   job.session.duration = 0.2;
@@ -320,7 +320,7 @@ TEST(Simulate, WithoutThe3dLidarNothingOfItIsThere) {
   EXPECT_TRUE(fs::exists(result.truth_folder + "/wheels.csv"));
 }
 
-TEST(Simulate, RawPairsSayHowTheyAreRectified) {
+TEST(Simulate, RawPairsHaveTheirRectification) {
   const TemporaryFolder folder;
   SimulateJob job = shortJob(folder);
   job.session.duration = 0.1;
@@ -360,7 +360,7 @@ TEST(Simulate, ABagGivesSpecificForce) {
   }
 }
 
-TEST(Simulate, ClocksOfTheirOwnAreOffByWhatTheTruthSays) {
+TEST(Simulate, DeviceClocksDeviateAsInTheTruth) {
   const TemporaryFolder folder;
   SimulateJob job = shortJob(folder);
   job.session.sensors = {urban_nav_sim::Sensor::Imu};
@@ -409,7 +409,7 @@ TEST(SimulateDeathTest, AnInterruptEndsItAndLeavesNoBag) {
     EXPECT_TRUE(entry.is_directory()) << entry.path();
 }
 
-TEST(Simulate, BeginsAFolderAnewThatWasCutOff) {
+TEST(Simulate, RestartsAnIncompleteFolder) {
   const TemporaryFolder folder;
   SimulateJob job = shortJob(folder);
   job.session.duration = 0.1;

@@ -22,7 +22,7 @@ TEST(CameraInfo, OfARectifiedPairGivesThePairBack) {
   EXPECT_TRUE(isApprox(rawCamera(leftInfo(infoCamera()), "here").pinhole, infoCamera().left, 0.0));
 }
 
-TEST(CameraInfo, SaysWhetherARemapIsNeeded) {
+TEST(CameraInfo, ReportsWhetherARemapIsNeeded) {
   CameraInfo info = leftInfo(infoCamera());
   info.D[0] = -0.1;
   EXPECT_TRUE(needsRectification(info));

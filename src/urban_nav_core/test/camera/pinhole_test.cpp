@@ -48,7 +48,7 @@ TEST(Pinhole, JacobianIsTheNumericDerivative) {
   }
 }
 
-TEST(Pinhole, NothingBehindTheCameraOrAtItsCentre) {
+TEST(Pinhole, NothingWithNegativeDepthOrAtTheCentre) {
   const Pinhole pinhole = pinholeCamera();
   EXPECT_FALSE(pinhole.project({0.1, 0.1, 0.0}));
   EXPECT_FALSE(pinhole.project({0.1, 0.1, -1.0}));

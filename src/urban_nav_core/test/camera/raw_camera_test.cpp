@@ -46,7 +46,7 @@ TEST(RawCamera, AgreesWithOpenCvOverTheImage) {
   }
 }
 
-TEST(RawCamera, SeesNothingBehindItself) {
+TEST(RawCamera, ProjectsNoPointsWithNegativeDepth) {
   EXPECT_FALSE(plumbBob().project({0.1, 0.1, -1.0}));
   EXPECT_FALSE(plumbBob().project({0.1, 0.1, 0.0}));
 }

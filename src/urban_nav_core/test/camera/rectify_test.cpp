@@ -221,7 +221,7 @@ TEST(Rectify, RowsOfARealPairAgree) {
   EXPECT_NEAR(rows[rows.size() / 2], 0.0, 0.3) << "px, over " << rows.size() << " corners";
 }
 
-TEST(Rectify, RefusesPairsThatAreSwappedOrLookApart) {
+TEST(Rectify, RejectsPairsThatAreSwappedOrDiverge) {
   EXPECT_THROW(rectifyStereo(right(), left(), T_right_left().inverse(), "here"), UserError);
   EXPECT_THROW(rectifyStereo(left(), right(), Pose(), "here"), UserError);
   const Pose apart(expSo3(Vector3d(0.0, 2.0, 0.0)), Vector3d(-0.1, 0.0, 0.0));

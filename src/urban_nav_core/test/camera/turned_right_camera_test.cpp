@@ -34,7 +34,7 @@ std::vector<std::uint8_t> renderSky(const StereoCamera& camera, const Vector3d& 
   return pixels;
 }
 
-TEST(TurnedRightCamera, ShowsWhatTheCalibratedCameraWouldSee) {
+TEST(TurnedRightCamera, IsTheImageOfTheCalibratedCamera) {
   const StereoCamera camera = turnedCamera();
   const std::vector<std::uint8_t> wanted = renderSky(camera, Vector3d::Zero());
   for (const Vector3d& turn : {Vector3d(0.0, 0.01, 0.0), Vector3d(-0.008, 0.0, 0.0), Vector3d(0.004, -0.006, 0.012)}) {

@@ -57,7 +57,7 @@ TEST(Pose, NormalisesItsQuaternion) {
   EXPECT_EQ(T.q().w(), 1.0);
 }
 
-TEST(Pose, KnowsWhetherItIsFinite) {
+TEST(Pose, ReportsWhetherItIsFinite) {
   EXPECT_TRUE(Pose().isFinite());
   EXPECT_FALSE(Pose(Quaterniond::Identity(), Vector3d(0.0, NAN, 0.0)).isFinite());
 }

@@ -231,7 +231,7 @@ TEST(Patch, SlopesOfDisparityAreFound) {
   EXPECT_LT((bias / count).norm(), 0.02);
 }
 
-TEST(Patch, SlopesStayUsualWherePixelsSayLittle) {
+TEST(Patch, SlopesStayAtThePriorWithoutContrast) {
   double usual = 0.0, wide = 0.0;
   for (unsigned seed = 0; seed < 60; ++seed) {
     const Texture texture(seed + 700);
@@ -245,7 +245,7 @@ TEST(Patch, SlopesStayUsualWherePixelsSayLittle) {
   EXPECT_LT(usual, 0.5 * wide);
 }
 
-TEST(Patch, ALaterViewTellsHowTheSurfaceSlants) {
+TEST(Patch, ALaterViewDeterminesTheSlant) {
   // The view is the source sheared by direction (slant . p); the template was made without the slant.
   const Eigen::Vector2d direction(0.6, -0.2), slant(0.2, -0.1);
   const Eigen::Matrix2d B = (Eigen::Matrix2d::Identity() + direction * slant.transpose()).inverse();

@@ -81,7 +81,7 @@ TEST(Pyramid, AgreesWithOpenCv) {
   }
 }
 
-TEST(Pyramid, AStructureAtUStandsAtUOverTwoToTheLevel) {
+TEST(Pyramid, AStructureAtUIsAtUOverTwoToTheLevel) {
   constexpr double kU0 = 127.3, kV0 = 86.6;
   cv::Mat image(192, 256, CV_8U);
   for (int v = 0; v < image.rows; ++v) {

@@ -41,7 +41,7 @@ TEST(FindDisparity, FindsItInSpiteOfBrightness) {
   }
 }
 
-TEST(FindDisparity, LooksInTheRowThatIsMeant) {
+TEST(FindDisparity, SearchesTheGivenRow) {
   RowPicture left, right, lower;
   paint(7, 3, left, right);
   for (int v = 0; v < 40; ++v)

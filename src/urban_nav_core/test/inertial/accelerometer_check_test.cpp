@@ -55,7 +55,7 @@ TEST(AccelerometerCheck, FindsNothingWrongWithASoundOne) {
   EXPECT_TRUE(examine(tilted).sound()) << "a steep street";
 }
 
-TEST(AccelerometerCheck, KnowsEachConventionThatIsUsual) {
+TEST(AccelerometerCheck, DetectsEachCommonConvention) {
   for (const char* axes : {"-x,-y,-z", "y,z,x", "z,x,y", "z,y,x", "x,z,y", "x,-y,-z"}) {
     const Matrix3d repair = *parseAxisMap(axes);
     const AccelerometerVerdict verdict = examine(repair.transpose());
@@ -69,7 +69,7 @@ TEST(AccelerometerCheck, KnowsEachConventionThatIsUsual) {
   EXPECT_NEAR(examine(-Matrix3d::Identity()).angle, M_PI, 0.05);
 }
 
-TEST(AccelerometerCheck, KnowsUnitsAndGravityThatIsTakenOff) {
+TEST(AccelerometerCheck, DetectsUnitsAndRemovedGravity) {
   const AccelerometerVerdict in_g = examine(Matrix3d::Identity() / 9.80665);
   EXPECT_EQ(in_g.fault, AccelerometerFault::Unit);
   EXPECT_NEAR(in_g.repair->scale, 9.80665, 1e-9);

@@ -34,7 +34,7 @@ TEST(ColumnNames, ThePlainestNameIsTakenAndTheStampOfTheHeader) {
   EXPECT_FALSE(findColumn({"a", "b"}, Quantity::X));
 }
 
-TEST(ColumnNames, UnitsStandInBrackets) {
+TEST(ColumnNames, UnitsAreInBrackets) {
   EXPECT_EQ(readUnit("x [mm]"), 1e-3);
   EXPECT_EQ(readUnit("#timestamp [ns]"), 1e-9);
   EXPECT_EQ(readUnit("y (cm)"), 0.01);

@@ -40,7 +40,7 @@ TEST(CovarianceCsv, RoundTripIsExact) {
   EXPECT_EQ(relative[0].covariance, symmetric(someCovariance()));
 }
 
-TEST(CovarianceCsv, HeadersBeginAsTheContractSays) {
+TEST(CovarianceCsv, HeadersBeginAsPromised) {
   EXPECT_EQ(covarianceHeader().rfind("stamp_ns,status,c11,c12,", 0), 0U);
   EXPECT_EQ(relativeCovarianceHeader().rfind("stamp_from_ns,stamp_to_ns,status,c11,", 0), 0U);
   EXPECT_EQ(covarianceHeader().substr(covarianceHeader().size() - 5), ",c66\n");

@@ -11,7 +11,7 @@ namespace {
 
 const char* const kTable = "a,b, c\n1,2.5,x\n\n-3, 4e1 ,\"x, \"\"y\"\"\"\r\n";
 
-TEST(Csv, KnowsItsCells) {
+TEST(Csv, ParsesItsCells) {
   const CsvTable table = CsvTable::parse(kTable, "t.csv");
   EXPECT_EQ(table.header(), (std::vector<std::string>{"a", "b", "c"}));
   ASSERT_EQ(table.rows(), 2U);

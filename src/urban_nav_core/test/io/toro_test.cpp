@@ -47,7 +47,7 @@ TEST(Toro, ReadsSpaceWithYawOutermost) {
   EXPECT_EQ(information(4, 5), 4 * 20);
 }
 
-TEST(Toro, TheInformationSaysTheSameOfASmallErrorAsBefore) {
+TEST(Toro, TheCostOfASmallErrorIsUnchanged) {
   const G2oGraph graph = parseToro(kToroSpace, "g.graph");
   const Vector6d angles = 1e-5 * (Vector6d() << 1, -2, 3, -4, 5, -6).finished();
   const Quaterniond E = expSo3({0, 0, angles[5]}) * expSo3({0, angles[4], 0}) * expSo3({angles[3], 0, 0});

@@ -6,7 +6,7 @@
 namespace urban_nav_core {
 namespace {
 
-TEST(Yaml, IsATreeThatKnowsItsLines) {
+TEST(Yaml, IsATreeWithLineNumbers) {
   const YamlNode root = parseYaml("a: 1\n\nb:\n  - x\n  - [1, 2.5]\nc: {d: ~}\n", "f.yaml");
   ASSERT_EQ(root.kind, YamlNode::Kind::Map);
   EXPECT_EQ(root.find("a")->scalar, "1");

@@ -43,7 +43,7 @@ Scan turn(StampNs stamp, int beams, StampNs step) {
 
 const Pose kLaser(Quaterniond(0.5, -0.5, 0.4, 0.6), {0.3, -0.25, 0.9});
 
-TEST(BeamRenderer, LaysEachBeamFromWhereTheLaserWasAtItsTime) {
+TEST(BeamRenderer, PlacesEachBeamByThePoseAtItsTime) {
   const Trajectory trajectory = drive(40);
   const Pose T_frame_world = trajectory[20].pose.inverse();
   BeamRenderer renderer(trajectory, kLaser, T_frame_world, kGap);
@@ -65,7 +65,7 @@ TEST(BeamRenderer, LaysEachBeamFromWhereTheLaserWasAtItsTime) {
   }
 }
 
-TEST(BeamRenderer, LeavesOutWhatNoPoseCoversAndSaysHowMuch) {
+TEST(BeamRenderer, LeavesOutBeamsWithoutAPoseAndCountsThem) {
   Trajectory trajectory;
   for (const StampNs stamp : {0L, 1L, 2L, 9L, 10L}) trajectory.append(stamp * kFrame, Pose());
   BeamRenderer renderer(trajectory, kLaser, Pose(), kGap);
@@ -80,7 +80,7 @@ TEST(BeamRenderer, LeavesOutWhatNoPoseCoversAndSaysHowMuch) {
   }
 }
 
-TEST(BeamRenderer, AWallSeenInATurnOnTheSpotIsFlat) {
+TEST(BeamRenderer, AWallScannedInATurnOnTheSpotIsFlat) {
   // Without the time of each beam it would be bent by 13 ms of the turn.
   Trajectory trajectory;
   for (int i = 0; i < 20; ++i) trajectory.append(i * kFrame, Pose(expSo3({0.0, 0.0, 0.1 * i}), {0.0, 0.0, 0.0}));

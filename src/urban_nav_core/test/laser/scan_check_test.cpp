@@ -44,7 +44,7 @@ TEST(ScanCheck, FindsNothingInSoundScans) {
   EXPECT_EQ(checkUnits(empty).fault, ScanFault::None);
 }
 
-TEST(ScanCheck, KnowsAnglesInDegrees) {
+TEST(ScanCheck, DetectsAnglesInDegrees) {
   const ScanVerdict verdict = checkUnits(scaled(1.0, 180.0 / M_PI));
   EXPECT_EQ(verdict.fault, ScanFault::AngleUnit);
   EXPECT_NEAR(verdict.value, 190.0, 1e-6);
@@ -52,7 +52,7 @@ TEST(ScanCheck, KnowsAnglesInDegrees) {
   EXPECT_EQ(checkUnits(scaled(1.0, 1e4)).repair, 1.0) << "no unit";
 }
 
-TEST(ScanCheck, KnowsMillimetresAndCentimetres) {
+TEST(ScanCheck, DetectsMillimetresAndCentimetres) {
   EXPECT_EQ(checkUnits(scaled(1000.0, 1.0)).fault, ScanFault::RangeUnit);
   EXPECT_EQ(checkUnits(scaled(1000.0, 1.0)).repair, 0.001);
   EXPECT_EQ(checkUnits(scaled(100.0, 1.0)).repair, 0.01);

@@ -27,7 +27,7 @@ TEST(Print, YamlWithSettingsReadsBackToo) {
   for (std::size_t i = 0; i < settings.size(); ++i) EXPECT_EQ(printValue(back[i].value), printValue(settings[i].value));
 }
 
-TEST(Print, YamlSaysWhatIsAllowed) {
+TEST(Print, YamlStatesTheAllowedValues) {
   const std::string text = printYaml("stage", rows());
   EXPECT_EQ(text.rfind("stage:\n  # Poses kept. Allowed: 1...100000 (frames). [section 2.2]\n  window: 10\n", 0), 0U)
       << text;

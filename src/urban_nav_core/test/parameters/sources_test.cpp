@@ -36,7 +36,7 @@ TEST(Sources, YamlOverridesDefaults) {
   EXPECT_EQ(loadText("stage:\n").parameters.window, 10);
 }
 
-TEST(Sources, LaterOnesWinAndSayWhoTheyAre) {
+TEST(Sources, LaterOnesOverrideAndReportTheirOrigin) {
   auto assignments = parseParameters(kYaml, "config.yaml");
   for (const auto& each : serverParameters("stage", {{"window", 30}, {"switch", true}, {"noise", 2}}, "/vo"))
     assignments.push_back(each);

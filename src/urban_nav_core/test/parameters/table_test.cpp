@@ -32,7 +32,7 @@ TEST(Table, GivesDefaultsAndTakesValues) {
   EXPECT_EQ(std::get<std::string>(exampleTable().get(example, "forget")), "delete");
 }
 
-TEST(Table, SaysWhatIsAllowed) {
+TEST(Table, StatesTheAllowedValues) {
   EXPECT_EQ(allowed(row("window")), "1...100000 (frames)");
   EXPECT_EQ(allowed(row("noise")), "numbers 0.001...5 (px)");
   EXPECT_EQ(allowed(row("robust")), "true, false");

@@ -6,7 +6,7 @@
 namespace urban_nav_core::testing {
 namespace {
 
-TEST(Bands, HoldChiSquareMeansAsOftenAsTheySay) {
+TEST(Bands, HoldChiSquareMeansAtTheirStatedRate) {
   std::mt19937 random(1);
   std::chi_squared_distribution<double> chi(6.0);
   int inside = 0;
@@ -19,7 +19,7 @@ TEST(Bands, HoldChiSquareMeansAsOftenAsTheySay) {
   EXPECT_NEAR(static_cast<double>(inside) / kTrials, 0.9, 0.02);
 }
 
-TEST(Bands, SayWhatWasExpected) {
+TEST(Bands, StateTheExpectedBand) {
   EXPECT_TRUE(meanChiSquareFits(6.0, 6, 50));
   const auto result = meanChiSquareFits(9.0, 6, 50);
   EXPECT_FALSE(result);

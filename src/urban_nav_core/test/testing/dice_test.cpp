@@ -10,7 +10,7 @@
 namespace urban_nav_core::testing {
 namespace {
 
-TEST(Dice, DrawWhatTheStandardSaysOfTheEngine) {
+TEST(Dice, DrawTheValuesOfTheStandard) {
   Dice dice(5489);  // its usual seed, of which ISO C++ [rand.predef] gives the 10 000th number
   double last = 0.0;
   for (int i = 0; i < 10000; ++i) last = dice.uniform();

@@ -48,7 +48,7 @@ TEST(Faults, TouchTheirTimeAndNothingElse) {
   }
 }
 
-TEST(Faults, DoWhatTheirNamesSay) {
+TEST(Faults, HaveTheirStatedEffects) {
   const std::uint8_t grey = frame(12).left.pixels[3];
   EXPECT_EQ(stream("black:0.5:0.5")[12]->left.pixels, std::vector<std::uint8_t>(32 * 24, 0));
   EXPECT_EQ(stream("black:0.5:0.5")[12]->right.pixels, std::vector<std::uint8_t>(32 * 24, 0));

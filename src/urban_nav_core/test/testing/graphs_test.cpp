@@ -51,7 +51,7 @@ TEST(Graphs, ChainComesFirstAndEdgesJoinPosesThatAreThere) {
   }
 }
 
-TEST(Graphs, NoiseIsWhatTheInformationSays) {
+TEST(Graphs, NoiseMatchesTheInformation) {
   for (const Shape& shape : shapes()) {
     const SimulatedGraph graph = shape.make(unevenNoise(), 2);
     double sums[2] = {0.0, 0.0}, counts[2] = {0.0, 0.0};
@@ -110,7 +110,7 @@ TEST(Graphs, AreTheSameForTheSameSeedAlone) {
   }
 }
 
-TEST(Graphs, ASphereLooksAlongItsRoundsAndClosesOnTheNext) {
+TEST(Graphs, ASphereHasHeadingsAlongItsRoundsAndClosuresToTheNext) {
   const SimulatedGraph graph = sphereGraph(50, 50, 50.0, evenNoise(0.1, 0.01), 1);
   EXPECT_EQ(graph.edges.size(), 4949u) << "as sphere2500 has";
   for (std::size_t i = 0; i < graph.truth.size(); ++i) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-TEST(Motion, OpticalAxesLookAlongTheHeading) {
+TEST(Motion, OpticalAxesPointAlongTheHeading) {
   const Matrix3d R = lookingAlong({1, 2, 3}, 0.0).R();
   EXPECT_TRUE(R.col(2).isApprox(Vector3d::UnitX(), 1e-12));
   EXPECT_TRUE(R.col(0).isApprox(-Vector3d::UnitY(), 1e-12));

@@ -72,7 +72,7 @@ TEST(ParameterEffects, AreShownByTestsOfOtherBinaries) {
       "all", print, {{"window", 5}, {"noise", 0.1}, {"robust", false}, {"forget", "delete"}}};
   EXPECT_EQ(findParametersWithoutEffect(
                 exampleTable(), {all},
-                {{"switch", "Table.SaysWhatIsAllowed", folder}, {"name", "Table.SaysNothing", folder}}),
+                {{"switch", "Table.StatesTheAllowedValues", folder}, {"name", "Table.SaysNothing", folder}}),
             "name: there is no test Table.SaysNothing\n");
 }
 

@@ -45,7 +45,7 @@ Scene wallWithSquare(double distance, const Vector3d& tilt) {
   return {{wall}, 0.0};
 }
 
-TEST(Render, ASquareStandsWhereGeometryPutsIt) {
+TEST(Render, ASquareIsAtItsProjection) {
   Renderer renderer(camera());
   for (const Vector3d& tilt : {Vector3d(0, 0, 0), Vector3d(0, 0.4, -0.5)}) {
     for (const double shift : {0.0, 0.0013, 0.0029, 0.0041}) {

@@ -50,7 +50,7 @@ TEST(StreetGraph, ClosuresJoinPassesInBothDirections) {
   EXPECT_GT(opposite, 60);
 }
 
-TEST(StreetGraph, NoiseIsWhatTheInformationSays) {
+TEST(StreetGraph, NoiseMatchesTheInformation) {
   const SimulatedGraph graph = streetGraph(20000, 200, streetNoise(), 3);
   double sums[2] = {0.0, 0.0}, counts[2] = {0.0, 0.0};
   for (const GraphEdge& edge : graph.edges) {
@@ -60,7 +60,7 @@ TEST(StreetGraph, NoiseIsWhatTheInformationSays) {
   for (int kind : {0, 1}) EXPECT_TRUE(meanChiSquareFits(sums[kind] / counts[kind], 6, counts[kind]));
 }
 
-TEST(StreetGraph, ChainDriftsAsItsNoiseSays) {
+TEST(StreetGraph, ChainDriftsByItsStatedNoise) {
   const SimulatedGraph graph = streetGraph(20000, 0, streetNoise(), 4);
   const double off = distanceBetween(deadReckoning(graph).back(), graph.truth.back());
   EXPECT_GT(off, 0.1);
@@ -81,7 +81,7 @@ TEST(StreetGraph, IsTheSameForTheSameSeedAlone) {
   EXPECT_GT(distanceBetween(one.truth.back(), other.truth.back()), 1.0);
 }
 
-TEST(StreetGraph, SaysHowManyPlacesAreSeenAgain) {
+TEST(StreetGraph, CountsRevisitedPlaces) {
   EXPECT_THROW(streetGraph(1000, 1, streetNoise(), 1), std::invalid_argument);
   EXPECT_EQ(streetGraph(1000, 0, streetNoise(), 1).edges.size(), 999u);
 }

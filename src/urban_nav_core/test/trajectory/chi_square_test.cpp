@@ -41,7 +41,7 @@ TEST(ChiSquare, BandOfFiftyRunsInSixDimensions) {
   EXPECT_FALSE(band.contains(std::nan("")));
 }
 
-TEST(ChiSquare, NothingLiesBelowZero) {
+TEST(ChiSquare, IsZeroBelowZero) {
   EXPECT_EQ(chiSquareProbability(0.0, 3), 0.0);
   EXPECT_EQ(chiSquareProbability(-1.0, 3), 0.0);
 }

@@ -61,7 +61,7 @@ void expectSame(const PoseWithCovariance& a, const PoseWithCovariance& b) {
   EXPECT_LT((a.covariance - b.covariance).norm(), 1e-7 * b.covariance.norm());
 }
 
-TEST(OdometryChain, AWayIsItsStepsOneByOneOverTheBordersOfBlocksToo) {
+TEST(OdometryChain, AMotionIsTheProductOfItsStepsAcrossBlocks) {
   for (const bool with_drift : {false, true}) {
     const std::vector<RelativePose> steps = someSteps(700, with_drift);
     const OdometryChain chain = makeChain(steps);
@@ -74,7 +74,7 @@ TEST(OdometryChain, AWayIsItsStepsOneByOneOverTheBordersOfBlocksToo) {
   }
 }
 
-TEST(OdometryChain, TheWayBackIsTheInverse) {
+TEST(OdometryChain, TheMotionBackIsTheInverse) {
   const OdometryChain chain = makeChain(someSteps(40, true));
   expectSame(*chain.between(30 * kStep, 5 * kStep), invert(*chain.between(5 * kStep, 30 * kStep)));
 }
@@ -87,7 +87,7 @@ TEST(OdometryChain, NothingIsUncertainBetweenMomentsOfOneFrame) {
   EXPECT_GT(way->pose.t().norm(), 0.0);
 }
 
-TEST(OdometryChain, MomentsBetweenFramesLieOnTheWay) {
+TEST(OdometryChain, MomentsBetweenFramesAreOnThePath) {
   const OdometryChain chain = makeChain(someSteps(10, true));
   const StampNs stamp = 3 * kStep + kStep / 4;
   const auto way = chain.between(0, stamp);
@@ -117,7 +117,7 @@ TEST(OdometryChain, FramesFarApartHaveNothingBetweenThem) {
   EXPECT_TRUE(chain.at(3'000'000'000));
 }
 
-TEST(OdometryChain, DistanceGrowsAlongTheWay) {
+TEST(OdometryChain, DistanceGrowsAlongThePath) {
   const std::vector<RelativePose> steps = someSteps(5, true);
   const OdometryChain chain = makeChain(steps);
   EXPECT_NEAR(chain.distance(2 * kStep), steps[0].T_from_to.t().norm() + steps[1].T_from_to.t().norm(), 1e-12);

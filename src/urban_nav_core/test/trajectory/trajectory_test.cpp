@@ -28,7 +28,7 @@ TEST(Interpolate, GoesStraightAndTurnsAtConstantRate) {
   EXPECT_TRUE(isApprox(interpolate(a, b, 1.0), b, 0.0));
 }
 
-TEST(Interpolate, TakesTheShorterWayRound) {
+TEST(Interpolate, TakesTheShorterArc) {
   const Pose a(expSo3({0, 0, 3.0}), Vector3d::Zero()), b(expSo3({0, 0, -3.0}), Vector3d::Zero());
   EXPECT_NEAR(angleBetween(interpolate(a, b, 0.5), Pose(expSo3({0, 0, 3.14159265358979}), Vector3d::Zero())), 0.0,
               1e-12);

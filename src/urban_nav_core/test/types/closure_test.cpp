@@ -38,7 +38,7 @@ TEST(Closure, MethodAndVerdictPrintAndReadBack) {
   EXPECT_FALSE(parseClosureVerdict(""));
 }
 
-TEST(Closure, SaysNothingUntilItIsFilled) {
+TEST(Closure, IsEmptyUntilItIsFilled) {
   const MetricClosure closure;
   EXPECT_EQ(closure.verdict, ClosureVerdict::Rejected);
   EXPECT_TRUE(closure.measured.information.isZero(0.0));

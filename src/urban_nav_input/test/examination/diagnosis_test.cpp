@@ -181,7 +181,7 @@ TEST_F(FolderDoctor, NamesMissingCalibration) {
   EXPECT_EQ(verdict.kinds.count("calibration"), 1U) << verdict.text;
 }
 
-TEST_F(FolderDoctor, NamesStampsThatStandStill) {
+TEST_F(FolderDoctor, ReportsStampsThatDoNotChange) {
   writeTimes([](int i) { return 0.05 * (i == 12 ? 11 : i); });
   EXPECT_GE(judge(path_).kinds.count("stamps"), 1U) << judge(path_).text;
 }

@@ -96,7 +96,7 @@ TEST_F(AlogFile, NamesFileAndLineOfWhatIsNoLog) {
   EXPECT_THROW(AlogReader("/nowhere/at/all.alog"), UserError);
 }
 
-TEST(AlogFields, KnowsNumbersStampsAndArrays) {
+TEST(AlogFields, ParsesNumbersStampsAndArrays) {
   const AlogFields fields(
       " Name=LISA, Sensor_0=LMS, Pose=[3x1]{4.2216,18.5450,-0.7990},time=1225719873.5024,"
       "Tail=[2x2]{1,2,3,4,},Empty=[0]{}",

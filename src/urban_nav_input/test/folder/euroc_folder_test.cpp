@@ -42,7 +42,7 @@ void makeEuroc(const std::string& path) {
   }
 }
 
-TEST(EurocFolder, IsRectifiedOnTheWay) {
+TEST(EurocFolder, IsRectifiedOnReading) {
   const TemporaryFolder folder;
   makeEuroc(folder.file("in"));
   const auto source = openEurocFolder(folder.file("in"), {});

@@ -240,7 +240,7 @@ TEST(KittiLayout, ParsesDates) {
   EXPECT_FALSE(parseDateTime("yesterday"));
 }
 
-TEST(InputKind, TellsWhatItKnows) {
+TEST(InputKind, ReportsTheExpectedKinds) {
   const TemporaryFolder folder;
   writeFile(folder.file("text.bag"), "no bag");
   std::filesystem::create_directories(folder.file("empty"));

@@ -76,7 +76,7 @@ TEST(BagTopics, FindsCameraInfoAboveCompressedImages) {
   EXPECT_EQ(name(topics, Role::LeftInfo), "/a/left/camera_info");
 }
 
-TEST(BagTopics, TakesTheOnlyTwoCameraInfosWhereverTheyStand) {
+TEST(BagTopics, TakesTheOnlyTwoCameraInfosOfAnyName) {
   const Topics images = {{"/left/image_raw", kImage}, {"/right/image_raw", kImage}};
   const auto with = [&](std::vector<std::string> infos) {
     Topics all = images;

@@ -42,7 +42,7 @@ TEST(AccelerometerFindings, ComposeWithTheConventionThatWasStated) {
   EXPECT_EQ(examine({0.0, 0.0, 9.8}, wrong)[0].options.at(1), "input.accelerometer_axes=x,y,z");
 }
 
-TEST(AccelerometerFindings, WithoutARepairSayWhatToChange) {
+TEST(AccelerometerFindings, WithoutARepairStateWhatToChange) {
   const std::vector<Finding> without_gravity = examine({0.1, 0.0, 0.05});
   ASSERT_EQ(without_gravity.size(), 1U);
   EXPECT_TRUE(without_gravity[0].options.empty());

@@ -195,7 +195,7 @@ TEST(ForeignBags, OfTwoDaysAreTwoSessionsWheneverTheyWereWritten) {
   EXPECT_EQ(findSessions({folder.file("day0.bag"), folder.file("day1.bag")}).size(), 2U);
 }
 
-TEST(ForeignBags, RunsWhoseClockStartsAnewAreTwoSessions) {
+TEST(ForeignBags, RunsWhoseClockRestartsAreTwoSessions) {
   const TemporaryFolder folder;
   for (const int day : {0, 1}) {
     Recipe recipe;
@@ -221,7 +221,7 @@ TEST(ForeignBags, ABagAndItsCopyCountOnce) {
   EXPECT_EQ(findSessions({folder.file("a.bag"), folder.file("other.bag")}).size(), 2U);
 }
 
-TEST(ForeignBags, StampsThatDoNotChangeGiveWayToTimesOfReceipt) {
+TEST(ForeignBags, StampsThatDoNotChangeAreReplacedByTimesOfReceipt) {
   const TemporaryFolder folder;
   {
     rosbag::Bag bag(folder.file("a.bag"), rosbag::bagmode::Write);

@@ -222,7 +222,7 @@ TEST_F(LocalizationNodelet, AnInitialPoseIsNeitherNeededNorAcceptedAgainstMatche
   expectRight(robot, 14);
 }
 
-TEST_F(LocalizationNodelet, AWorldThatWasNeverSeenIsNew) {
+TEST_F(LocalizationNodelet, AnUnmappedWorldIsNew) {
   ASSERT_TRUE(load(path("map.db")));
   Visitor robot(street());
   ASSERT_TRUE(DrivingRobot::until([&] { return robot.isConnected(); }));

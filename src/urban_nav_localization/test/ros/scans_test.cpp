@@ -60,7 +60,7 @@ void makeMap(const std::string& path) {
   store.commit();
 }
 
-TEST(LocalizationNodeletScans, WhoDrivesTheOtherWayIsFoundByItsLasers) {
+TEST(LocalizationNodeletScans, TheOppositeDirectionIsFoundByLasers) {
   const std::string path =
       (std::filesystem::temp_directory_path() / ("localise_scans_" + std::to_string(::getpid()) + ".db")).string();
   makeMap(path);

@@ -63,7 +63,7 @@ TEST(FreeSpace, IsWhereBeamsWentThroughAndNothingElse) {
   EXPECT_TRUE(space.isFree({2.0F, 2.0F, 1.1F})) << "beside it";
 }
 
-TEST(FreeSpace, KnowsNothingWithoutBeams) {
+TEST(FreeSpace, IsUnknownWithoutBeams) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   PointCloud cloud;
   EXPECT_FALSE(FreeSpace(cloud, 0.5F).isFree(Vector3f::Zero()));

@@ -17,7 +17,7 @@ Eigen::Vector3f somewhere(Dice& dice, double size) {
           static_cast<float>(dice.uniform(-size, size))};
 }
 
-TEST(SurfelIndex, FindsWhatALookAtAllOfThemFinds) {
+TEST(SurfelIndex, FindsTheSameAsAnExhaustiveSearch) {
   Dice dice(3);
   std::vector<Surfel> surfels;
   for (int i = 0; i < 8000; ++i)

@@ -69,7 +69,7 @@ TEST(Surfels, NormalsAreThoseOfThe27CubesEachOfEqualWeight) {
   EXPECT_GT(compared, surfels.all.size() * 9 / 10);
 }
 
-TEST(Surfels, WhereBeamsAreFarApartLargerCubesKnowTheNormal) {
+TEST(Surfels, SparseBeamsHaveNormalsFromLargerCubes) {
   PointCloud cloud;  // a wall at x = 20 m, beams 0.9 m apart
   for (int y = -9; y <= 9; ++y)
     for (int z = -3; z <= 9; ++z)
@@ -80,7 +80,7 @@ TEST(Surfels, WhereBeamsAreFarApartLargerCubesKnowTheNormal) {
   }
 }
 
-TEST(Surfels, TheKeyOfACellBesideIsFoundWithoutTheCell) {
+TEST(Surfels, TheKeyOfANeighbouringCellIsFoundWithoutTheCell) {
   for (const Cell& cell : {Cell{0, 0, 0}, Cell{-1, 5, -7}, Cell{kFarthestCell, -kFarthestCell, kFarthestCell}})
     for (const Cell& by : {Cell{-1, -1, -1}, Cell{1, -1, 0}, Cell{0, 1, 1}})
       EXPECT_EQ(keyBeside(toKey(cell), by), toKey({cell.x + by.x, cell.y + by.y, cell.z + by.z}));

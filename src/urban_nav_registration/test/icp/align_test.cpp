@@ -224,7 +224,7 @@ TEST(Align, WhatASearchFindsIsNoBetterThanNoiseLetsIt) {
   expectFinite(alignment);
 }
 
-TEST(Align, WhereNothingIsPossibleItSaysSo) {
+TEST(Align, ReportsThatNoPoseIsPossible) {
   const Pair pair = makePair(courtyard(1), stand(1.0, 0.5, 5.0), stand(0.3, 0.1, 0.0), 1);
   const auto never = [](const urban_nav_core::Constraint&) { return false; };
   for (const SearchMode search : {SearchMode::Never, SearchMode::IfRejected, SearchMode::AtOnce}) {

@@ -29,7 +29,7 @@ TEST(Jpeg, ComesBackInItsOwnSizeAndInNoOther) {
   EXPECT_TRUE(decodeJpeg(bytes, {48, 64}).empty());
 }
 
-TEST(Jpeg, AHeaderThatLiesTakesNoMemory) {
+TEST(Jpeg, AWrongHeaderAllocatesNoMemory) {
   std::vector<std::uint8_t> bytes = somePicture();
   for (std::size_t i = 0; i + 9 < bytes.size(); ++i)
     if (bytes[i] == 0xFF && bytes[i + 1] == 0xC0)

@@ -53,7 +53,7 @@ class TwoCameras : public ::testing::Test {
   Pose T_base1_base2_;
 };
 
-TEST_F(TwoCameras, CalibratedAnewMeasureTheTruth) {
+TEST_F(TwoCameras, RecalibratedMeasureTheTruth) {
   RenderCamera later;
   later.fx += 3.0, later.fy += 3.0;
   later.cx += 2.0;

@@ -25,7 +25,7 @@ class Choice : public ::testing::Test {
 
 TEST_F(Choice, TheFirstViewIsKept) { EXPECT_TRUE(selector_.select(keyframePose(7.0))); }
 
-TEST_F(Choice, WayIsMeasuredFromTheLastOneThatWasKept) {
+TEST_F(Choice, DistanceIsMeasuredFromTheLastSelectedOne) {
   EXPECT_TRUE(selector_.select(keyframePose(0.0)));
   EXPECT_FALSE(selector_.select(keyframePose(0.6)));
   EXPECT_FALSE(selector_.select(keyframePose(0.99)));

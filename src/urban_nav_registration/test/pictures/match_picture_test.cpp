@@ -49,7 +49,7 @@ Keyframe emptyView(int width, int height) {
   return keyframe;
 }
 
-TEST(MatchPicture, ShowsTheViewsBesideOrAboveEachOther) {
+TEST(MatchPicture, ShowsTheViewsSideBySideOrAboveEachOther) {
   const Keyframe a = someView(0.1), b = someView(0.4);
   const Picture beside = drawMatches(a, b, {});
   EXPECT_EQ(beside.width, 2 * 512 + 4);
@@ -96,7 +96,7 @@ TEST(MatchPicture, LargeViewsAreReducedWithTheirMatches) {
   EXPECT_TRUE(colourAt(picture, 200, 120).isGrey());
 }
 
-TEST(MatchPicture, AMissingOrDamagedViewIsAPanelThatSaysSo) {
+TEST(MatchPicture, AMissingOrDamagedViewIsReportedInItsPanel) {
   const Keyframe good = someView(0.1);
   Keyframe cut = good, noise = good, lying = good;
   cut.image.resize(30);

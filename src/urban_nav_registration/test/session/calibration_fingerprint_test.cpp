@@ -6,7 +6,7 @@
 namespace urban_nav_registration {
 namespace {
 
-TEST(CameraWords, TellsWhateverMakesViewsDiffer) {
+TEST(CameraWords, ChangesWithWhateverChangesViews) {
   urban_nav_core::StereoCamera camera;
   camera.left = {400.0, 400.0, 255.5, 191.5, 512, 384};
   camera.baseline = 0.12;

@@ -49,7 +49,7 @@ TEST(Descriptor, FollowsTheScaleThatIsGiven) {
   EXPECT_GT(distanceBetween(near, {100.0, 80.0}, 40.0, far, {100.0, 80.0}, 40.0), 0.4);
 }
 
-TEST(Descriptor, NothingToSeeIsZeroAndMatchesNothing) {
+TEST(Descriptor, AUniformPatchIsZeroAndMatchesNothing) {
   const Pyramid flat = toPicture([](double, double) { return 90.0; });
   EXPECT_EQ(describe(flat, {100.0, 80.0}, 32.0).norm(), 0.0F);
   Descriptors zeros = Descriptors::Zero(kDescriptorSize, 5);
@@ -63,7 +63,7 @@ TEST(Descriptor, BordersAndCornersAreReadToo) {
     EXPECT_TRUE(describe(picture, at, 130.0).allFinite());
 }
 
-TEST(MutualNearest, PairsEqualOnesAndLeavesDoubtfulOnes) {
+TEST(MutualNearest, PairsEqualOnesAndSkipsAmbiguousOnes) {
   Descriptors a = Descriptors::Zero(kDescriptorSize, 4), b = Descriptors::Zero(kDescriptorSize, 4);
   a(0, 0) = a(1, 1) = a(2, 2) = a(3, 3) = 1.0F;
   b(2, 0) = b(0, 1) = 1.0F;

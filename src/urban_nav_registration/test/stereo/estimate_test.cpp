@@ -95,7 +95,7 @@ TEST(Estimate, OutliersDoNotMoveIt) {
   EXPECT_GT(found.inliers, 130);
 }
 
-TEST(Estimate, NoiseThatIsLargerThanPromisedIsSeen) {
+TEST(Estimate, NoiseLargerThanStatedIsDetected) {
   Dice dice(4);
   const Pose T = motion(dice);
   const Estimate as_promised = estimate(estimateCamera(), measurements(T, 1.0, 0.0, 300, dice), T, {});

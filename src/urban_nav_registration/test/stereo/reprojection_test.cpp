@@ -65,7 +65,7 @@ TEST(PointMeasurement, AgreesWithTheCameraOnAPoint) {
   }
 }
 
-TEST(PointMeasurement, WhatLiesBehindIsNotVisible) {
+TEST(PointMeasurement, NegativeDepthIsNotVisible) {
   PointMeasurement measurement = makeMeasurement(true);
   const Pose beyond(urban_nav_core::Quaterniond::Identity(), {0.0, 0.0, 100.0});
   EXPECT_FALSE(

@@ -31,14 +31,14 @@ struct Lookout {
   }
 };
 
-TEST(DepthMap, GroundSeenAtAGrazingAngleDoesNotHideItself) {
+TEST(DepthMap, GroundAtAGrazingAngleDoesNotOccludeItself) {
   Lookout lookout;
   lookout.addGround();
   for (double z = 4.0; z < 24.0; z += 1.0) EXPECT_TRUE(lookout.shows({0.3, 1.0, z}, {0.0, -1.0, 0.0})) << z;
   EXPECT_FALSE(lookout.shows({0.3, 1.0, 20.0}, Vector3d::Zero())) << "without a normal the ground before it hides it";
 }
 
-TEST(DepthMap, AWallHidesWhatIsBehindItAndNotItself) {
+TEST(DepthMap, AWallOccludesFartherPointsAndNotItself) {
   Lookout lookout;
   for (double y = -1.0; y <= 1.0; y += kEdge)
     for (double x = -1.0; x <= 1.0; x += kEdge) lookout.add({x, y, 5.0});

@@ -26,7 +26,7 @@ TEST(Places, AWordInEveryPictureIsWorthNothing) {
   EXPECT_TRUE(wordWeights({}).empty());
 }
 
-TEST(Places, LikenessIsTheCosineOfWorthWhileWords) {
+TEST(Places, SimilarityIsTheCosineOfInformativeWords) {
   const std::vector<double> worth = {1.0, 2.0};
   EXPECT_NEAR(likeness({1, 3}, {2, 6}, worth), 1.0, 1e-12);
   EXPECT_NEAR(likeness({1, 0}, {0, 1}, worth), 0.0, 1e-12);

@@ -51,7 +51,7 @@ void expectEdge(const Picture& picture, double (*x_at)(double y), double per_pix
   EXPECT_NEAR(sum / rows, 0.0, worst_mean);
 }
 
-TEST(Edges, OfASurfaceLieWhereTheyAreToAFractionOfAPixel) {
+TEST(Edges, OfASurfaceAreAccurateToAFractionOfAPixel) {
   World world = emptyWorld();
   // A sheet on the ground, hardly above it: its left edge leans by one in ten.
   Part sheet = quad(kWall, {0.0F, -4.0F, 1e-4F}, {10, 0, 0}, {0.8F, 8, 0});

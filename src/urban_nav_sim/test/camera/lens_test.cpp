@@ -43,7 +43,7 @@ TEST(Lens, ProjectsAsOpenCvDoes) {
   }
 }
 
-TEST(Lens, EveryPixelSeesSomethingAndIsWhereItIsSeen) {
+TEST(Lens, EveryPixelHitsASurfaceAtItsProjection) {
   for (const Lens& lens : lenses()) {
     for (int v = 0; v <= lens.height; v += 16) {
       for (int u = 0; u <= lens.width; u += 16) {
@@ -67,7 +67,7 @@ TEST(Lens, JacobianIsTheNumericOne) {
   }
 }
 
-TEST(Lens, WhatIsNotInFrontOrIsFoldedIsNotSeen) {
+TEST(Lens, PointsNotInFrontOrFoldedAreNotProjected) {
   Lens lens = lenses().front();
   lens.distortion = {-0.3};
   EXPECT_FALSE(lens.project({0.1, 0.1, -1.0}));

@@ -38,7 +38,7 @@ TEST(Defects, AreSwitchedOneByOne) {
   EXPECT_TRUE(defects.has(Sensor::Stereo, Defect::Lens));
 }
 
-TEST(Defects, AllStandsForSensorsAndForUsualDefects) {
+TEST(Defects, AllMeansAllSensorsAndTheUsualDefects) {
   Defects defects;
   defects.switchOff("all:all");
   for (const Sensor sensor : kAllSensors) EXPECT_FALSE(defects.has(sensor, Defect::Jitter)) << toString(sensor);
@@ -63,7 +63,7 @@ void expectDefectError(const std::string& word, const std::string& found, const 
   }
 }
 
-TEST(Defects, SaysWhatThereIs) {
+TEST(Defects, ListsTheKnownNames) {
   expectDefectError("imu", "imu", "SENSOR:DEFECT");
   expectDefectError("", "\"\"", "SENSOR:DEFECT");
   expectDefectError("sonar:noise", "sonar", "stereo, ladybug, lasers, imu, wheels, gps");

@@ -45,7 +45,7 @@ TEST(Fault, OfTheRigAreReadInTheirForms) {
   EXPECT_EQ(parseFault("dark:stereo:5:10").kind, FaultKind::Dark);
 }
 
-TEST(Fault, SaysWhatIsAllowed) {
+TEST(Fault, StatesTheAllowedValues) {
   expectFaultError("melt:stereo:0:1", "melt",
                    "drop, freeze, swap, corrupt, jump, unplug, nan, knock, drift, scale, rain, dark");
   expectFaultError("drop:sonar:0:1", "sonar", "stereo, ladybug, lasers, imu, wheels, gps");

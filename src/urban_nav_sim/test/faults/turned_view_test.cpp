@@ -21,7 +21,7 @@ cv::Mat view(const Lens& lens, double yaw) {
   return image;
 }
 
-TEST(TurnedView, ShowsWhatTheTurnedCameraSees) {
+TEST(TurnedView, IsTheImageOfTheTurnedCamera) {
   Lens lens{160, 120, 140.0, 140.0, 80.0, 60.0, {-0.2, 0.05, 0.0, 0.0, 0.0}};
   const double yaw = 0.02;
   const cv::Mat turned = TurnedView(lens, Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitY())).apply(view(lens, 0.0));

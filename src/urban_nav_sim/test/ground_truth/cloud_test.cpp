@@ -56,7 +56,7 @@ TEST(Cloud, LeavesNoHolesInTriangles) {
   EXPECT_LT(count, 2100) << "a sliver is not sampled as densely as a square";
 }
 
-TEST(Cloud, HoldsWhatIsNearTheWay) {
+TEST(Cloud, ContainsSurfacesNearThePath) {
   World world;
   world.materials.resize(2);
   world.materials[0].surface_class = SurfaceClass::Paved;

@@ -46,7 +46,7 @@ TEST(Revisits, AreAllPairsNearInSpaceAndFarInTime) {
   EXPECT_EQ(found, wanted);
 }
 
-TEST(Revisits, SayDistanceAndHeading) {
+TEST(Revisits, HaveDistanceAndHeading) {
   const Trajectory panoramas = rounds(300.0);
   int same = 0, opposite = 0;
   for (const Revisit& each : findRevisits(panoramas)) {
@@ -62,7 +62,7 @@ TEST(Revisits, SayDistanceAndHeading) {
   EXPECT_GT(opposite, 100);
 }
 
-TEST(Revisits, ThereAreNoneWhereNothingIsSeenAgain) {
+TEST(Revisits, ThereAreNoneWithoutRevisits) {
   EXPECT_TRUE(findRevisits(Trajectory()).empty());
   EXPECT_TRUE(findRevisits(rounds(29.0)).empty());
 }

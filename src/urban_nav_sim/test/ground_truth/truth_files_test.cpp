@@ -128,7 +128,7 @@ TEST_F(TruthFiles, RingErrorsOfTheLidarAreWritten) {
   EXPECT_NEAR(rings.number(9, 3), lidar.ringErrors()[9].range, 1e-6);
 }
 
-TEST_F(TruthFiles, SaysWhichFileCannotBeWritten) {
+TEST_F(TruthFiles, ReportsTheFileThatCannotBeWritten) {
   std::filesystem::remove_all(folder_);
   EXPECT_THROW(write(0.0), urban_nav_core::UserError);
 }

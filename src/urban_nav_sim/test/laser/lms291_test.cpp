@@ -46,7 +46,7 @@ TEST(Lms291, BeamsEndOnTheSurfaceAtTheirOwnTime) {
   EXPECT_GT(on_wall, 40);
 }
 
-TEST(Lms291, LooksToItsSideFromTheGroundUpAndTheRightOneFromTheTopDown) {
+TEST(Lms291, ScansItsSideUpwardsAndTheRightOneDownwards) {
   const World world = yard();
   const Tracer tracer(world);
   const Lms291 left(tracer, sensorPose("laser_left"), 7, "laser_left", Lms291::Settings::exact());
@@ -58,7 +58,7 @@ TEST(Lms291, LooksToItsSideFromTheGroundUpAndTheRightOneFromTheTopDown) {
   EXPECT_EQ(second.intensities.front(), 0.0F);
 }
 
-TEST(Lms291, ErrsAsItsDataSheetSays) {
+TEST(Lms291, HasTheErrorsOfItsDataSheet) {
   const World world = yard();
   const Tracer tracer(world);
   const Lms291 laser(tracer, sensorPose("laser_left"), 7, "laser_left", Lms291::Settings());

@@ -27,7 +27,7 @@ TEST(RateController, AllIsDueAtOnceAtRateZero) {
   EXPECT_EQ(pace.due(kFirst + 100'000 * kMs, wall(7)), wall(7));
 }
 
-TEST(RateController, CatchesUpAfterAShortDelayAndForgetsALongOne) {
+TEST(RateController, CatchesUpAfterAShortDelayAndSkipsALongOne) {
   RateController pace(1.0);
   pace.due(kFirst, wall(0));
   EXPECT_EQ(pace.due(kFirst + 100 * kMs, wall(700)), wall(100)) << "late, and due since long";
@@ -57,7 +57,7 @@ void run(RateController& pace, int steps, int takes) {
   }
 }
 
-TEST(RateController, SaysByHowMuchItIsTooSlow) {
+TEST(RateController, ReportsItsFactorAndWhetherItIsSlow) {
   RateController quick(1.0), slow(1.0);
   EXPECT_FALSE(quick.factor()) << "nothing measured yet";
   run(quick, 200, 20);

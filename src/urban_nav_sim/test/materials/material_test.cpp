@@ -41,7 +41,7 @@ class Materials : public ::testing::Test {
   }
 };
 
-TEST_F(Materials, WhatAWholeWallIsOnAverageIsItsLookFromAfar) {
+TEST_F(Materials, AWallFromAfarHasItsMeanColour) {
   for (const MaterialKind stuff :
        {MaterialKind::Ashlar, MaterialKind::Brick, MaterialKind::Gravel, MaterialKind::Lawn, MaterialKind::Slabs}) {
     Material m = stock().make(stuff);
@@ -53,7 +53,7 @@ TEST_F(Materials, WhatAWholeWallIsOnAverageIsItsLookFromAfar) {
   }
 }
 
-TEST_F(Materials, AFootprintSeesTheMeanOfWhatIsUnderItAtAllSizes) {
+TEST_F(Materials, AFootprintHasTheMeanOfItsAreaAtAllSizes) {
   Draw draw(5);
   for (const MaterialKind stuff :
        {MaterialKind::Ashlar, MaterialKind::Brick, MaterialKind::Gravel, MaterialKind::Lawn}) {
@@ -74,7 +74,7 @@ TEST_F(Materials, AFootprintSeesTheMeanOfWhatIsUnderItAtAllSizes) {
   }
 }
 
-TEST_F(Materials, AFlatLookKeepsItsDetailAcrossTheLongAxis) {
+TEST_F(Materials, AnElongatedFootprintKeepsDetailAcrossItsLongAxis) {
   const Material m = stock().make(MaterialKind::Gravel);
   double with_taps = 0.0, truth = 0.0, mean = 0.0;
   const int n = 150;
@@ -91,7 +91,7 @@ TEST_F(Materials, AFlatLookKeepsItsDetailAcrossTheLongAxis) {
   EXPECT_LT(truth, 0.6 * with_taps);
 }
 
-TEST_F(Materials, MovesByWhatGeometrySays) {
+TEST_F(Materials, JointsStayInPlaceAtAllSizes) {
   // The middle of a brick's joint, found at three sizes of pixels, stays where it is.
   Material m = stock().make(MaterialKind::Brick);
   m.layers = {}, m.per_tone.setZero();

@@ -22,7 +22,7 @@ Tile randomTile(int size, float period) {
   return {size, period, mix, tone};
 }
 
-TEST(Footprint, HasTheAxesOfTheEllipseThatAPixelSees) {
+TEST(Footprint, HasTheAxesOfThePixelsEllipse) {
   const Footprint round = computeFootprint({0.01F, 0.0F}, {0.0F, 0.01F}, 8);
   EXPECT_EQ(round.taps, 1);
   EXPECT_NEAR(round.width, 0.01F, 1e-6F);

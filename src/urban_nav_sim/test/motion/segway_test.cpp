@@ -15,13 +15,13 @@ SegwayState driven(SegwayState state, const SegwayCommand& command, const Segway
   return state;
 }
 
-TEST(Segway, StandsUprightWhereNothingIsWanted) {
+TEST(Segway, StaysUprightWithoutACommand) {
   const SegwayState state = driven({}, {}, {}, 10.0);
   EXPECT_EQ(state.pitch, 0.0);
   EXPECT_EQ(state.speed, 0.0);
 }
 
-TEST(Segway, StandsOnSlopesAsWell) {
+TEST(Segway, IsStableOnSlopesAsWell) {
   SegwayDisturbance disturbance;
   disturbance.slope = 0.12;
   const SegwayState start = standingSegway({3, 4}, 0.5, disturbance.slope), state = driven(start, {}, disturbance, 5.0);
@@ -30,7 +30,7 @@ TEST(Segway, StandsOnSlopesAsWell) {
   EXPECT_LT((state.position - Eigen::Vector2d(3, 4)).norm(), 2e-3);
 }
 
-TEST(Segway, CatchesItselfFromALean) {
+TEST(Segway, RecoversFromATilt) {
   SegwayState tilted;
   tilted.pitch = 0.1;
   EXPECT_GT(driven(tilted, {}, {}, 0.3).speed, 0.05);  // drives under itself

@@ -139,7 +139,7 @@ TEST(MakeRide, RollFollowsTheSlopeAcross) {
   }
 }
 
-TEST(MakeRide, LeansIntoItsAcceleration) {
+TEST(MakeRide, TiltsIntoItsAcceleration) {
   DriveOptions options = optionsFor(60.0);
   options.oscillation = 0.0;
   const auto motion = simulateDrive(levelWorld(), loop(), options);
@@ -155,7 +155,7 @@ TEST(MakeRide, LeansIntoItsAcceleration) {
   EXPECT_GT(both / std::sqrt(leans * pushes), 0.7);
 }
 
-TEST(MakeRide, LeansUphillSoThatTheMassStaysAboveTheWheels) {
+TEST(MakeRide, TiltsUphillSoThatTheMassStaysAboveTheWheels) {
   World world;
   world.ground = [](double x, double) { return 0.1 * x; };
   DriveOptions options = optionsFor(30.0);
@@ -217,7 +217,7 @@ TEST(MakeRide, GoesOnInTheSameDirectionWhereTheRouteIsClosed) {
   EXPECT_GT(turned, 3.5 * 2.0 * M_PI);
 }
 
-TEST(MakeRide, ComesBackTheWayItWentWhereTheRouteIsOpen) {
+TEST(MakeRide, ReturnsAlongAnOpenRoute) {
   const auto motion = simulateDrive(levelWorld(), thereAndBack(), optionsFor(120.0));
   int arrivals = 0;
   bool at_start = true;
@@ -232,7 +232,7 @@ TEST(MakeRide, ComesBackTheWayItWentWhereTheRouteIsOpen) {
   EXPECT_GE(arrivals, 2);
 }
 
-TEST(MakeRide, StandsWhereItIsToPause) {
+TEST(MakeRide, StopsAtItsPauses) {
   Route route = thereAndBack();
   route.waypoints[1].pause = 5.0;
   const auto motion = simulateDrive(levelWorld(), route, optionsFor(24.0));
@@ -249,7 +249,7 @@ TEST(MakeRide, StandsWhereItIsToPause) {
   EXPECT_LT(stands, 7.0);
 }
 
-TEST(MakeRide, StandsAtTheStartInTheDirectionOfTheRoute) {
+TEST(MakeRide, StartsInTheDirectionOfTheRoute) {
   const auto motion = simulateDrive(levelWorld(), routeThrough({{3, 4}, {3, 30}}), optionsFor(10.0));
   const MotionState start = motion->at(0.0);
   EXPECT_LT((start.T_world_base.t().head<2>() - Vector2d(3, 4)).norm(), 0.02);

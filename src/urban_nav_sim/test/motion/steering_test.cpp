@@ -50,7 +50,7 @@ Drive drive(const Route& route, double duration, double start = 0.0) {
   return result;
 }
 
-TEST(SteeringModel, KeepsToAnyWayAndGoesOn) {
+TEST(SteeringModel, FollowsAnyPathToItsEnd) {
   for (std::uint64_t seed = 0; seed < 24; ++seed) {
     const Noise noise(seed, "route");
     const double longest = seed % 3 == 0 ? 2.5 : seed % 3 == 1 ? 8.0 : 30.0;

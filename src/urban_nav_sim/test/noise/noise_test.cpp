@@ -81,7 +81,7 @@ TEST(Noise, NormalAgreesWithBoxAndMullerByTheLibrary) {
   }
 }
 
-TEST(Noise, RoughNormalHasTheMomentsThatItSays) {
+TEST(Noise, RoughNormalHasItsStatedMoments) {
   const Noise noise(7, "pixels");
   const Moments m = computeMoments([&](std::uint64_t i) { return static_cast<double>(noise.roughNormal(i)); });
   EXPECT_NEAR(m.mean, 0.0, kFiveSigma);

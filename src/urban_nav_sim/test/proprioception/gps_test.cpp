@@ -21,7 +21,7 @@ Vector3d positionError(const Gps& gps, const Motion& motion, std::int64_t k) {
          motion.at(kGpsSchedule.at(k)).T_world_base * kPlace.t();
 }
 
-TEST(Geodesy, KnowsTheLengthsOfDegrees) {
+TEST(Geodesy, ComputesTheLengthsOfDegrees) {
   // 111 km a degree of latitude; of longitude at the equator 2 pi a / 360.
   EXPECT_NEAR(fromLocal({0, 0, 0}, {1.0, 0, 0}).longitude, 360.0 / (2.0 * M_PI * 6378137.0), 1e-12);
   EXPECT_NEAR(fromLocal({90, 0, 0}, {0, 0, 7.0}).altitude, 7.0, 1e-6);
@@ -73,7 +73,7 @@ TEST(Gps, ErrorsAreSlowAndOfTheSizeThatIsStated) {
   EXPECT_LT(std::sqrt(step / fixes), 0.4 * rms);
 }
 
-TEST(Gps, GapsHoldTheLastPlaceAndSaySo) {
+TEST(Gps, GapsKeepTheLastPositionAndReportIt) {
   const auto motion = testMotion(300.0);
   int gaps = 0, all = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {

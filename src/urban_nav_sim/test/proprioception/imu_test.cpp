@@ -71,7 +71,7 @@ TEST(Imu, IntegratedWithoutNoiseItReturnsToTheTruePose) {
   }
 }
 
-TEST(Imu, StandingItFeelsGravityAlone) {
+TEST(Imu, AtRestItMeasuresGravityOnly) {
   const auto motion = testMotion(5.0, false);
   const ImuMeasurement measured = imuOn(*motion, perfectImu()).at(0);
   const Vector3d up = kImuPlace.q().conjugate() * Vector3d(0, 0, kGravity);
@@ -114,7 +114,7 @@ TEST(Imu, BiasesDriftSlowly) {
   EXPECT_LT((drifting.at(29000).specific_force - perfect.at(29000).specific_force).norm(), 0.15);
 }
 
-TEST(Imu, StatedNoiseIsSmallBesideTheBoundOfTheGyroscope) {
+TEST(Imu, StatedNoiseIsSmallRelativeToTheBoundOfTheGyroscope) {
   const auto motion = testMotion(60.0);
   const Imu noisy = imuOn(*motion, ImuOptions{});
   double square = 0.0;

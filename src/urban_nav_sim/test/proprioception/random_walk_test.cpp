@@ -23,7 +23,7 @@ TEST(RandomWalk, FreeOnesSpreadWithTheRootOfTime) {
   EXPECT_NEAR(sigmaAt(100.0, make), std::sqrt(4.0 + 25.0), 0.2);
 }
 
-TEST(RandomWalk, DrawnBackOnesKeepTheirSpreadAndForget) {
+TEST(RandomWalk, MeanRevertingOnesKeepTheirSpreadAndDecorrelate) {
   const auto make = [](const Noise& noise) { return RandomWalk::drawnBack(2.0, 20.0, 100.0, noise); };
   EXPECT_NEAR(sigmaAt(0.0, make), 2.0, 0.08);
   EXPECT_NEAR(sigmaAt(100.0, make), 2.0, 0.08);

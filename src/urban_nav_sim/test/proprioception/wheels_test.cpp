@@ -16,7 +16,7 @@ using urban_nav_core::Pose;
 const Clock kWheelClock(0, ClockOptions{}, Noise(1, "clock"));
 const Schedule kWheelSchedule = sensorSchedule(Sensor::Wheels);
 
-TEST(Wheels, WithoutErrorsDeadReckoningStaysOnTheTrueWay) {
+TEST(Wheels, WithoutErrorsDeadReckoningFollowsTheTruePath) {
   const auto motion = testMotion(120.0, false, 0.0);
   const Wheels wheels(*motion, perfectWheels(), kWheelClock, Noise(7, "wheels"));
   const Pose T_base_world = motion->at(0.0).T_world_base.inverse();
@@ -41,7 +41,7 @@ TEST(Wheels, SpeedsAreThoseOfTheAxle) {
   }
 }
 
-TEST(Wheels, ErrorsGrowWithTheWay) {
+TEST(Wheels, ErrorsGrowWithTheDistance) {
   const auto motion = testMotion(200.0);
   const Wheels perfect(*motion, perfectWheels(), kWheelClock, Noise(7, "wheels"));
   double after_10_m = 0.0, at_end = 0.0;

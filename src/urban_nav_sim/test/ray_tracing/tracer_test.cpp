@@ -40,7 +40,7 @@ TEST(Tracer, MeetsTheNearestSurface) {
   EXPECT_NEAR(point.spot.per_v.y(), -0.03F, 1e-5F);
 }
 
-TEST(Tracer, TextureChangesAsNeighbouringRaysTellOnSlantedSurfaces) {
+TEST(Tracer, FootprintOnSlantedSurfacesMatchesNeighbouringRays) {
   const World world = yard();
   const Tracer tracer(world);
   const Snapshot snapshot(tracer, 3.0, 3.0);

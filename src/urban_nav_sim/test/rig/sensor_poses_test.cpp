@@ -11,7 +11,7 @@ using urban_nav_core::Vector3d;
 /// Returns the direction of a sensor's axis in base_link.
 Vector3d axis(const std::string& frame, const Vector3d& a) { return sensorPose(frame).q() * a; }
 
-TEST(Places, CamerasLookForwardAndRoundTheHorizon) {
+TEST(Places, CamerasFaceForwardAndAroundTheHorizon) {
   EXPECT_LT((axis("stereo_left_optical_frame", Vector3d::UnitZ()) - Vector3d::UnitX()).norm(), 1e-12);
   EXPECT_LT((axis("stereo_left_optical_frame", Vector3d::UnitY()) + Vector3d::UnitZ()).norm(), 1e-12);
   const Vector3d between = sensorPose("stereo_right_optical_frame").t() - sensorPose("stereo_left_optical_frame").t();
@@ -26,7 +26,7 @@ TEST(Places, CamerasLookForwardAndRoundTheHorizon) {
   EXPECT_LT(axis("ladybug_camera1_optical_frame", Vector3d::UnitZ()).y(), 0.0) << "clockwise seen from above";
 }
 
-TEST(Places, LasersScanAcrossTheWay) {
+TEST(Places, LasersScanAcrossThePath) {
   // Beam 90 deg (x of the laser) looks to the side; y, towards which angles grow, is up on the left and down on the
   // right.
   EXPECT_LT((axis("laser_left", Vector3d::UnitX()) - Vector3d::UnitY()).norm(), 1e-12);

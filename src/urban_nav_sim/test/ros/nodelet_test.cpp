@@ -140,7 +140,7 @@ TEST_F(Simulator, PublishesTheSessionToTheLastBit) {
   }
 }
 
-TEST_F(Simulator, TheClockFollowsTheMessagesAndTheDiagnosticsTellHowFar) {
+TEST_F(Simulator, TheClockFollowsTheMessagesAndTheDiagnosticsReportIt) {
   ASSERT_TRUE(call("resume"));
   ASSERT_TRUE(until([this] { return said("over") && receivedAll(); })) << lastState() << ", " << received();
   ASSERT_TRUE(until([this] { return clock_.back() == begin() + 1'000'000'000; })) << "the end of the session";

@@ -14,7 +14,7 @@ Measurement stamped(urban_nav_core::StampNs stamp) {
   return imu;
 }
 
-TEST(Timeline, AsksDevicesInTheOrderOfTime) {
+TEST(Timeline, QueriesDevicesInTheOrderOfTime) {
   Timeline timeline(1.0);
   const auto sayingTime = [](const Schedule& schedule, int copies) {
     return [schedule, copies](std::int64_t k) {

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-TEST(Building, AWallHasHolesWhereItsOpeningsAreAndLooksOutwards) {
+TEST(Building, AWallHasHolesAtItsOpeningsAndFacesOutwards) {
   World world;
   world.ground = [](double, double) { return 0.0; };
   Site site(world, 1);
@@ -33,7 +33,7 @@ TEST(Building, AWallHasHolesWhereItsOpeningsAreAndLooksOutwards) {
   for (const Vector3f& v : site.part(window).vertices) EXPECT_NEAR(v.y(), 0.2F, 1e-6F);  // inside the wall
 }
 
-TEST(Building, AHouseStandsOnItsRectangleAndHasWindowsDoorsAndARoof) {
+TEST(Building, AHouseFillsItsRectangleAndHasWindowsDoorsAndARoof) {
   World world;
   world.ground = [](double, double) { return 0.0; };
   Site site(world, 1);

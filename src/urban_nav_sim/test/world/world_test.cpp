@@ -66,7 +66,7 @@ TEST_P(Worlds, OneOfTheRoutesCreeps) {
   EXPECT_LT(way(0.0, 3.0), 0.09);
 }
 
-TEST_P(Worlds, RoutesKeepClearOfWhatStandsThere) {
+TEST_P(Worlds, RoutesKeepClearOfObstacles) {
   const World& world = testWorld(GetParam());
   std::vector<Vector2d> places;
   for (const Route& route : worldRoutes(GetParam(), 7)) {
@@ -155,7 +155,7 @@ TEST_P(Towns, EveryClassOfSurfaceIsNearTheRoutes) {
   EXPECT_EQ(classes.size(), 8U);
 }
 
-TEST_P(Worlds, IsTheSameAgainAndItsBuildingsStandOnOtherDays) {
+TEST_P(Worlds, IsReproducibleAndKeepsItsBuildingsOnOtherDays) {
   const World& first = testWorld(GetParam());
   if (GetParam() == "street") {  // one of them, for the time it takes
     const World again = buildWorld(GetParam(), 7, 1);

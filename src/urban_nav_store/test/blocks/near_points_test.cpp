@@ -47,7 +47,7 @@ TEST(NearPoints, RefuseBytesOfAnotherLength) {
   EXPECT_THROW(row.points(), urban_nav_core::DataError);
 }
 
-TEST(NearPoints, AreLeastCertainAlongTheLineOfSight) {
+TEST(NearPoints, HaveTheLargestErrorAlongTheRay) {
   const NearPoints row = pointsOfKeyframe({});
   const NearPoints::Point point{{4.3F, 0.0F, 1.0F}, 0.1F, 0};  // straight ahead of the camera, 4 m away
   const Eigen::Matrix3d covariance = row.covariance(point);

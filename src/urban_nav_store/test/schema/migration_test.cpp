@@ -208,7 +208,7 @@ TEST_F(Migration, HappensAsAWholeOrNotAtAll) {
   EXPECT_EQ(dump(store), before);
 }
 
-TEST_F(Migration, ALostRowIsNamedBeforeItsTableIsWrittenAnew) {
+TEST_F(Migration, ALostRowIsReportedBeforeItsTableIsRewritten) {
   Connection connection(path, Connection::Mode::Write);
   connection.execute("UPDATE tally SET count=count+1 WHERE name='property'");
   expectError([&] { schema::migrate(connection, laterTables()); }, path, "do not match the 3 written");

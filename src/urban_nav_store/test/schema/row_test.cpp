@@ -52,7 +52,7 @@ TEST_F(Rows, AddUp) {
   EXPECT_NO_THROW(readAll("one"));
 }
 
-TEST_F(Rows, AChangeOfAnyColumnIsSeen) {
+TEST_F(Rows, AChangeOfAnyColumnIsDetected) {
   for (const Column& column : table.columns) {
     connection.beginWriting();
     const std::string other = column.type == ColumnType::Text      ? "'one ' || stamp_ns"
@@ -70,7 +70,7 @@ TEST_F(Rows, AChangeOfAnyColumnIsSeen) {
   }
 }
 
-TEST_F(Rows, AnotherTypeIsSeen) {
+TEST_F(Rows, AnotherTypeIsDetected) {
   connection.execute("UPDATE node SET covariance='text' WHERE stamp_ns=3");
   expectError([&] { readAll("one"); }, connection.name(), "holds another type");
 }

@@ -128,7 +128,7 @@ TEST_F(Journal, AMergeOfOneStoreKeepsEveryNumber) {
   EXPECT_EQ(EditJournal(after).all().size(), 3u);
 }
 
-TEST_F(Journal, AMergeNumbersAnewWhatClashesInAnyOrder) {
+TEST_F(Journal, AMergeRenumbersConflictsInAnyOrder) {
   for (const auto& [name, id] : {std::make_pair("a.db", kOne), std::make_pair("b.db", kOther)}) {
     fill(name, id);
     Store store(folder.file(name), Access::Write);

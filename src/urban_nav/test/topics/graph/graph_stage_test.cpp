@@ -97,7 +97,7 @@ TEST(GraphRunTest, LeavesASessionWithoutClosuresAsOdometryHasIt) {
   EXPECT_NE(run.covariances[0].back(), monday.settled.back().T_odom_base.covariance);
 }
 
-TEST(GraphRunTest, UsesGpsFixesIfAskedToAndSaysWhatBecameOfThem) {
+TEST(GraphRunTest, UsesGpsFixesOnRequestAndReportsTheirUse) {
   const SessionOdometry run = driveCircle(0, 1200, 1e-3);
   const urban_nav_core::LocalTangent tangent({0.9, 0.0, 100.0});
   constexpr double kDegrees = 180.0 / M_PI;
@@ -212,7 +212,7 @@ struct TwoDays {
 // The robot's first pose is tilted by 0.1 rad to the side and 0.05 rad ahead.
 const Pose kTilted(expSo3(Vector3d(0.1, 0.05, 0.0)), Vector3d::Zero());
 
-TEST(GraphRunTest, LevelsTheMapWhereAnAccelerometerKnowsHow) {
+TEST(GraphRunTest, LevelsTheMapByAnAccelerometer) {
   TwoDays days;
   const GraphRun before = days.relaxed(false);
   EXPECT_FALSE(before.levels[0].known());

@@ -139,7 +139,7 @@ const char* const kSharpSquare =
     "EDGE_SE2 2 3 1 0 1.57 1e4 0 0 1e4 0 4e4\nEDGE_SE2 3 4 1 0 1.57 1e4 0 0 1e4 0 4e4\n"
     "EDGE_SE2 4 0 0 0 0 1e4 0 0 1e4 0 4e4\n";
 
-TEST_F(Relax, WhatCannotBeDecidedIsOdometryAndSaysSo) {
+TEST_F(Relax, AnUndecidedSelectionIsOdometryAndReported) {
   writeAtomically(path("in.g2o"), std::string(kSquare) + "EDGE_SE2 0 2 50 -30 1 100 0 0 100 0 400\n");
   ASSERT_EQ(relax({path("in.g2o"), "-o", path("a.g2o"), "--edges", path("e.csv"), "--json", path("a.json")}), 0);
   EXPECT_NE(readTextFile(path("e.csv")).find("4,0,0,rejected,"), std::string::npos);

@@ -50,7 +50,7 @@ class LabelsTeaching : public ::testing::Test {
   const urban_nav_input::testing::TemporaryFolder folder_;
 };
 
-TEST_F(LabelsTeaching, LearnsACorrectedClassAndFindsItElsewhere) {
+TEST_F(LabelsTeaching, AppliesACorrectedClassElsewhere) {
   trainModel();
   writePly("edited.ply", "scalar_label", 3, 1000);
   writePly("other.ply", "label", 4, 1000);
@@ -74,7 +74,7 @@ TEST_F(LabelsTeaching, LearnsACorrectedClassAndFindsItElsewhere) {
       << "scenes, no corrections";
 }
 
-TEST_F(LabelsTeaching, RefusesWhatItCannotLearnFrom) {
+TEST_F(LabelsTeaching, RejectsUnusableTrainingData) {
   trainModel();
   writePly("edited.ply", "scalar_label", 3, 100);
   writePly("unlabelled.ply", "height", 3, 100);

@@ -42,7 +42,7 @@ bool holds(const std::vector<std::string>& sentences, const std::string& text) {
                      [&](const std::string& sentence) { return sentence.find(text) != std::string::npos; });
 }
 
-TEST(CalibrationReport, SaysWhatWasFoundAndWhatTheSessionCannotTell) {
+TEST(CalibrationReport, ReportsEstimatesAndUnobservableTerms) {
   const LasersRun run = runWithCalibration(true);
   const std::vector<std::string> sentences = calibrationSentences(run);
   EXPECT_TRUE(holds(sentences, "calibration of quad: adopted"));
@@ -74,7 +74,7 @@ TEST(CalibrationReport, DelaysAreThoseOfAllSessionsByTheirInformation) {
   EXPECT_NE(delays.find("\"panorama\": 24.8"), std::string::npos) << delays;
 }
 
-TEST(CalibrationReport, SaysWhyTheStatedCalibrationIsKept) {
+TEST(CalibrationReport, ReportsWhyTheStatedCalibrationIsKept) {
   EXPECT_TRUE(
       holds(calibrationSentences(runWithCalibration(false)), "calibration of quad: the stated calibration is kept"));
 }

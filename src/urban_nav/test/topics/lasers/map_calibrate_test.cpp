@@ -55,7 +55,7 @@ void expectStoredColours(const std::string& folder) {
 
 /// Ten seconds of a drive: the head of the panoramic cameras is turned to the left by 2 deg from where it is stated to
 /// be, so /tf_static is wrong by -2 deg about z.
-TEST(MapCalibrate, FindsATurnedHeadSaysSoAndColoursTheMapWithIt) {
+TEST(MapCalibrate, FindsATurnedHeadReportsItAndColoursTheMapWithIt) {
   const urban_nav_input::testing::TemporaryFolder folder;
   const std::string bag = folder.file("drive.bag"), plain = folder.file("plain"),
                     calibrated = folder.file("calibrated");

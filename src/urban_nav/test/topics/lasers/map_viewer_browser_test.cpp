@@ -98,7 +98,7 @@ class MapInABrowser : public ::testing::Test {
   MapViewer viewer_{0};
 };
 
-TEST_F(MapInABrowser, EachWayOfColouringShowsPointsInItsOwnColours) {
+TEST_F(MapInABrowser, EachColouringShowsPointsInItsColours) {
   const std::string view = viewer_.render();
   std::map<std::string, cv::Mat> pictures;
   for (const std::string mode : kModes) {

@@ -18,7 +18,7 @@ StoredClosure closureWithoutEvidence(urban_nav_store::EdgeKind kind) {
   return closure;
 }
 
-TEST(Explanation, SaysWhatConstraintsFromPlanesRestOn) {
+TEST(Explanation, ListsTheEvidenceOfConstraintsFromPlanes) {
   const std::string plane = explain(closureWithoutEvidence(urban_nav_store::EdgeKind::Plane));
   EXPECT_NE(plane.find("by plane"), std::string::npos) << plane;
   EXPECT_NE(plane.find("measured by the lasers in two passes"), std::string::npos) << plane;

@@ -109,7 +109,7 @@ TEST_F(Loops, LaterDaysFindTheViewsOfEarlierOnesInTheStore) {
   EXPECT_EQ(rows[0].T_a_b->matrix(), listRows("out")[0].T_a_b->matrix());
 }
 
-TEST_F(Loops, WhySaysWhatTheStoreKnows) {
+TEST_F(Loops, WhyPrintsTheEvidenceOfTheStore) {
   urban_nav_store::Store store(file("out") + "/session.db", urban_nav_store::Access::Read);
   const std::vector<StoredClosure> closures = listClosures(store);
   ASSERT_EQ(closures.size(), 3U) << "the one with an unknown session has no place in a store";

@@ -39,7 +39,7 @@ std::vector<Rate> readGyroscope(const std::string& path) {
   return rates;
 }
 
-TEST(Still, TurnsNoFurtherThanTheGyroscopeSays) {
+TEST(Still, TurnsNoFurtherThanTheGyroscope) {
   const char* data = std::getenv("URBAN_NAV_DATA");
   const std::string folder = data == nullptr ? "" : std::string(data) + "/stereo/euroc_still";
   if (folder.empty() || !std::filesystem::exists(folder))

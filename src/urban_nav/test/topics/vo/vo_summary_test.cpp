@@ -32,7 +32,7 @@ void lose(OdometryFrame& row, swf_vo::Reason reason, const std::string& sentence
 
 TEST(VoSummary, WarnsOfNothingWhereAllIsWell) { EXPECT_TRUE(summarise(steadyRun()).warnings.empty()); }
 
-TEST(VoSummary, SaysHowManyFramesWereLostAndWhy) {
+TEST(VoSummary, ReportsTheNumberOfLostFramesAndReasons) {
   VoRun run = steadyRun();
   lose(run.frames[1], swf_vo::Reason::NotRectified, "rows differ by 4.0 px");
   lose(run.frames[2], swf_vo::Reason::NotRectified, "rows differ by 5.0 px");

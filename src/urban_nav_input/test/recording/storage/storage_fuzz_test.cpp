@@ -263,7 +263,7 @@ TEST(StorageFuzz, DamagedBag) { expectToSurvive({makeBag()}, openScannedBag); }
 TEST(StorageFuzz, DamagedIndexOfABag) { expectToSurvive({makeIndexedBag()}, openBagRecords); }
 
 /// Numbers that librosbag did not check: it allocated as much, ended the process, or read beyond the chunk.
-TEST(StorageFuzz, NumbersOfABagThatLieCostNoMessageAndNoMemory) {
+TEST(StorageFuzz, WrongNumbersInABagLoseNoMessageAndAllocateNoMemory) {
   constexpr std::uint32_t kFar = 0xfffffff0;
   const std::string path = (fs::temp_directory_path() / ("storage_lies_" + std::to_string(getpid()))).string();
   const auto open = [&](const IndexLie& lie) {
