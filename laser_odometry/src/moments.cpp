@@ -29,6 +29,18 @@ void Moments::add(const Moments& other, const Vector3d& shift) {
   count += n;
 }
 
+void Moments::add(double n, const Vector3d& mean, const Matrix3d& covariance) {
+  count += n;
+  sum += n * mean;
+  const Matrix3d squares = n * (covariance + mean * mean.transpose());
+  outer[0] += squares(0, 0);
+  outer[1] += squares(0, 1);
+  outer[2] += squares(0, 2);
+  outer[3] += squares(1, 1);
+  outer[4] += squares(1, 2);
+  outer[5] += squares(2, 2);
+}
+
 void Moments::scale(double factor) {
   count *= factor;
   sum *= factor;

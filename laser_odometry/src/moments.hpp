@@ -26,6 +26,8 @@ struct Moments {
     outer[4] += p.y() * p.z();
     outer[5] += p.z() * p.z();
   }
+  /// Adds `n` points with a mean and a covariance (m^2).
+  void add(double n, const Vector3d& mean, const Matrix3d& covariance);
   /// Adds moments whose origin is at `shift` relative to this origin.
   void add(const Moments& other, const Vector3d& shift);
   /// Scales the weight of all points.

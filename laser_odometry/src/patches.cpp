@@ -7,24 +7,23 @@
 
 namespace laser_odometry {
 
-std::vector<Patch> makePatches(const std::vector<Vector3d>& points, const std::vector<float>& times, double size) {
+std::vector<Patch> makePatches(const std::vector<Segment>& segments, double size) {
   struct Part {
-    Vector3d origin;  // the first point, so that sums remain small
+    Vector3d origin;  // mean of the first segment, so that sums remain small
     Moments moments;
     double time = 0.0, half_square = 0.0;  // sums, s and s^2
   };
   std::vector<Part> parts;
-  urban_nav_registration::CellTable table(points.size() / 4 + 64);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vector3d& p = points[i];
-    const std::optional<std::uint64_t> key = findKey(p, size);
+  urban_nav_registration::CellTable table(segments.size() / 2 + 64);
+  for (const Segment& segment : segments) {
+    const std::optional<std::uint64_t> key = findKey(segment.mean, size);
     if (!key) continue;
     const std::uint32_t number = table.insert(*key);
-    if (number == parts.size()) parts.push_back({p, {}, 0.0, 0.0});
-    parts[number].moments.add(p - parts[number].origin);
-    const double time = static_cast<double>(times[i]);
-    parts[number].time += time;
-    parts[number].half_square += 0.5 * time * time;
+    if (number == parts.size()) parts.push_back({segment.mean, {}, 0.0, 0.0});
+    Part& part = parts[number];
+    part.moments.add(segment.count, segment.mean - part.origin, segment.covariance);
+    part.time += segment.count * segment.time;
+    part.half_square += segment.count * segment.half_square;
   }
   std::vector<Patch> patches;
   patches.reserve(parts.size());

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "moments.hpp"
+#include "sweep_points.hpp"
 
 namespace laser_odometry {
 
@@ -16,7 +17,7 @@ struct Patch {
   double half_square = 0.0;                ///< mean of half of the squared time, s^2
 };
 
-/// Groups points by cubes of edge `size` (m), in the order of their first points. `times`: of the points, s.
-std::vector<Patch> makePatches(const std::vector<Vector3d>& points, const std::vector<float>& times, double size);
+/// Groups segments by the cubes of edge `size` (m) that hold their means, in the order of their first segments.
+std::vector<Patch> makePatches(const std::vector<Segment>& segments, double size);
 
 }  // namespace laser_odometry

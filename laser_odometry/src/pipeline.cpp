@@ -20,6 +20,7 @@ constexpr double kPruneStep = 5.0;       // m between prunings of the map
 constexpr double kRangeScale = 5e-4;     // relative error common to all ranges: the 2 cm stated by manufacturers, at 40
                                          // m
 constexpr double kReach = 60.0;          // edges of a cube: distance at which beams of 0.5 deg are half an edge apart
+constexpr double kSegment = 0.5;         // edges of a cube: largest distance between returns of a segment
 constexpr int kStartRounds = 4;          // rounds of mutual deskewing of the first two sweeps
 constexpr double kConsecutive = 2.0;     // sweep durations between the reference times of consecutive sweeps, at most
 constexpr double kStartStep = 0.3;       // m between start positions of the second sweep
@@ -43,8 +44,8 @@ LaserPose Pipeline::process(const Sweep& sweep, const std::optional<MotionPrior>
   LaserPose result;
   result.stamp = sweep.reference;
   const Prediction prediction = predict(sweep, prior);
-  const SweepPoints points =
-      collectPoints(sweep, T_base_lidar_, parameters_.min_range, parameters_.max_range, kLongestSweep);
+  const SweepPoints points = collectPoints(sweep, T_base_lidar_, parameters_.min_range, parameters_.max_range,
+                                           kLongestSweep, kSegment * parameters_.cell);
   result.statistics.points = points.valid;
   result.statistics.near = points.near;
   result.statistics.deskewed = parameters_.deskew && points.last_s > points.first_s;
@@ -56,11 +57,11 @@ LaserPose Pipeline::process(const Sweep& sweep, const std::optional<MotionPrior>
     beginMap(points, knownMotion());
     result.status = started_ ? statusOfRestart(points, parameters_) : statusOfStart(points, parameters_);
   } else {
-    const Aligned aligned = first_.p.empty() ? align(points, prediction, T_odom_base_ * prediction.T_last_now)
+    const Aligned aligned = first_.used == 0 ? align(points, prediction, T_odom_base_ * prediction.T_last_now)
                                              : alignSecond(points, prediction);
     assess(aligned, points, sweep, prediction, result);
     if (result.status.health == Health::Lost) {
-      if (!first_.p.empty()) map_.clear();  // map of a sweep with unknown velocity
+      if (first_.used > 0) map_.clear();  // map of a sweep with unknown velocity
       first_ = SweepPoints();
       continueByPrediction(prediction, result);
       restartIfLost(points, result);
@@ -129,9 +130,7 @@ SweepMotion Pipeline::knownMotion() const {
 void Pipeline::beginMap(const SweepPoints& points, const SweepMotion& motion) {
   map_.clear();
   first_ = points;
-  std::vector<Vector3d> moved = deskew(points, motion);
-  for (Vector3d& p : moved) p = T_odom_base_ * p;
-  map_.insert(moved, T_odom_base_ * T_base_lidar_.t(), sweep_);
+  map_.insert(transformed(T_odom_base_, deskew(points, motion)), T_odom_base_ * T_base_lidar_.t(), sweep_);
   pruned_at_ = T_odom_base_.t();
 }
 
@@ -170,8 +169,8 @@ Pipeline::Aligned Pipeline::align(const SweepPoints& points, const Prediction& p
       else aligned.motion = start ? start->second : expected;
       options.motion_offset = aligned.motion - expected;
     }
-    aligned.points = deskew(points, aligned.motion);
-    const std::vector<Patch> patches = makePatches(aligned.points, points.time, parameters_.cell);
+    aligned.segments = deskew(points, aligned.motion);
+    const std::vector<Patch> patches = makePatches(aligned.segments, parameters_.cell);
     aligned.registration = registerPatches(patches, map_, predicted, aligned.registration.T_odom_base, options);
     aligned.iterations += aligned.registration.iterations;
     options.coarse_level = 0;
@@ -181,7 +180,7 @@ Pipeline::Aligned Pipeline::align(const SweepPoints& points, const Prediction& p
 }
 
 Pose Pipeline::searchStart(const SweepPoints& points, const Prediction& prediction) {
-  const std::vector<Patch> patches = makePatches(deskew(points, {}), points.time, parameters_.cell);
+  const std::vector<Patch> patches = makePatches(deskew(points, {}), parameters_.cell);
   RegistrationOptions options;
   options.iterations = 6;
   options.surface_sigma = parameters_.surface_sigma;
@@ -293,9 +292,7 @@ void Pipeline::grow(const Aligned& aligned, const SweepPoints& points) {
     return;
   }
   first_ = SweepPoints();
-  std::vector<Vector3d> placed = aligned.points;
-  for (Vector3d& p : placed) p = T_odom_base_ * p;
-  map_.insert(placed, T_odom_base_ * T_base_lidar_.t(), sweep_);
+  map_.insert(transformed(T_odom_base_, aligned.segments), T_odom_base_ * T_base_lidar_.t(), sweep_);
   if ((T_odom_base_.t() - pruned_at_).norm() > kPruneStep) {
     map_.prune(T_odom_base_.t(), parameters_.map_range);
     pruned_at_ = T_odom_base_.t();
@@ -312,7 +309,7 @@ void Pipeline::continueByPrediction(const Prediction& prediction, LaserPose& res
 }
 
 void Pipeline::restartIfLost(const SweepPoints& points, LaserPose& result) {
-  if (++lost_ < kLostLimit || points.p.empty()) return;
+  if (++lost_ < kLostLimit || points.used == 0) return;
   motion_ = MotionModel(parameters_);
   beginMap(points, knownMotion());
   result.status.sentence += "; local map restarted";

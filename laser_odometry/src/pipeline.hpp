@@ -36,10 +36,10 @@ class Pipeline {
     Matrix6d covariance = Matrix6d::Identity();
     bool is_measured = false;  ///< by another sensor
   };
-  /// A registered sweep with the deskewed points of its last round, in base_link.
+  /// A registered sweep with the deskewed segments of its last round, in base_link.
   struct Aligned {
     Registration registration;
-    std::vector<Vector3d> points;
+    std::vector<Segment> segments;
     SweepMotion motion;  ///< motion within the sweep
     int iterations = 0;
   };

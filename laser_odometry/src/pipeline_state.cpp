@@ -13,7 +13,7 @@ using urban_nav_core::Health;
 namespace {
 
 constexpr const char* kStateName = "laser_odometry";
-constexpr std::uint32_t kStateVersion = 1;
+constexpr std::uint32_t kStateVersion = 2;
 // Limits of a vehicle that drives over a kerb: a registration beyond them is rejected.
 constexpr double kLargestAcceleration = 50.0;  // m/s^2
 constexpr double kLargestTurn = 15.0;          // rad/s^2
@@ -57,7 +57,7 @@ void Pipeline::assess(const Aligned& aligned, const SweepPoints& points, const u
 
 bool Pipeline::isPlausible(const Registration& registration, const Prediction& prediction) const {
   // A measured prior may be more accurate than its covariance; at the start the motion is unknown.
-  if (prediction.is_measured || !motion_.isKnown() || !first_.p.empty()) return true;
+  if (prediction.is_measured || !motion_.isKnown() || first_.used > 0) return true;
   const Vector6d d = urban_nav_core::boxMinus(T_odom_base_.inverse() * registration.T_odom_base, prediction.T_last_now);
   const double span = prediction.seconds * (prediction.seconds + usual_s_ * lost_);
   return d.head<3>().norm() <= kLargestAcceleration * span && d.tail<3>().norm() <= kLargestTurn * span;
@@ -70,7 +70,7 @@ std::vector<MapPoint> Pipeline::localMap() const {
       // Replaced by a plane of a finer level at the same position.
       bool is_covered = false;
       for (int finer = 0; finer < level && !is_covered; ++finer) is_covered = map_.hasPlane(cell, finer);
-      const Plane plane = cell.is_current ? cell.plane : fitPlane(cell.moments, cell.centre);
+      const Plane plane = cell.is_current ? cell.plane : cell.fit();
       if (is_covered || !plane.usable) continue;
       points.push_back(
           {plane.mean.cast<float>(), plane.normal.cast<float>(), static_cast<float>(std::sqrt(plane.variance))});

@@ -14,6 +14,7 @@ constexpr double kSmallStep = 1e-4;       // m at the surfaces: a tenth of the a
 constexpr double kCauchy = 2.385;         // 95 % efficiency for normal errors (Holland, Welsch 1977)
 constexpr double kSmallStart = 0.005;     // m
 constexpr double kThickest = 6.0;         // ratio of the variance of a patch to that of its plane
+constexpr double kNear = 10.0;            // m: rings 2 deg apart share the coarsest cubes, on the ground too
 constexpr double kNormalMedian = 0.6745;  // median of |x| of a standard normal variable
 
 /// Returns the median of |values|; reorders them.
@@ -121,6 +122,16 @@ NormalEquations buildEquations(const Registration& state, const RegistrationOpti
   return equations;
 }
 
+/// Returns Registration::covered.
+double coveredShare(const std::vector<Patch>& patches, const std::vector<PatchMatch>& matches) {
+  const auto is_near = [](const Vector3d& p) { return p.squaredNorm() < kNear * kNear; };
+  const auto all =
+      std::count_if(patches.begin(), patches.end(), [&](const Patch& patch) { return is_near(patch.mean); });
+  const auto with_plane =
+      std::count_if(matches.begin(), matches.end(), [&](const PatchMatch& match) { return is_near(match.row.lever); });
+  return all == 0 ? 1.0 : static_cast<double>(with_plane) / static_cast<double>(all);
+}
+
 }  // namespace
 
 std::vector<PatchMatch> matchPatches(const std::vector<Patch>& patches, SurfaceMap& map, const Pose& T_odom_base,
@@ -181,6 +192,7 @@ Registration registerPatches(const std::vector<Patch>& patches, SurfaceMap& map,
     if (is_small && level == 0 && is_narrow) break;
     if (level > 0 && (is_small || step.head<3>().norm() < 0.02)) --level;
   }
+  result.covered = coveredShare(patches, result.matches);
   std::vector<double> distances;
   double agreeing = 0.0;
   for (const PatchMatch& match : result.matches) {

@@ -51,6 +51,7 @@ struct Registration {
   Matrix6d information = Matrix6d::Zero();
   FreeSubspace free;
   std::vector<PatchMatch> matches;
+  double covered = 1.0;     ///< of the patches within 10 m, the share with a plane in the map
   double scale = 1.0;       ///< robust standard deviation of residual / sqrt(variance)
   double residual_m = 0.0;  ///< robust standard deviation of the residuals, m
   double share = 0.0;       ///< of the patches near surfaces of the map, those that match

@@ -16,6 +16,9 @@ constexpr int kFewestPoints = 200;      // returns required for a registration
 constexpr double kCoveredShare = 0.25;  // share of returns nearer than min_range
 constexpr double kAgreeing = 3.0;       // standard deviations
 constexpr double kLeastAgreeing = 0.5;  // share of the matches
+// Minimum of Registration::covered if directions are free: below it, the map is of another place, and constrains only
+// what all places have in common, such as the height above the ground.
+constexpr double kLeastCovered = 1.0 / 3.0;
 
 Status make(Health health, Reason reason, const std::string& sentence) {
   return {health, static_cast<int>(reason), sentence};
@@ -87,7 +90,7 @@ Status statusOfJump(const Pose& predicted, const Pose& registered) {
 
 std::optional<Status> findTooFewPoints(const SweepPoints& points) {
   if (points.valid == 0) return make(Health::Lost, Reason::NoPoints, "no valid return: NaN, or ranges of zero");
-  const int left = static_cast<int>(points.p.size());
+  const int left = points.used;
   if (left >= kFewestPoints) return std::nullopt;
   return make(Health::Lost, Reason::TooFewPoints,
               "too few returns in range: " + std::to_string(left) + ", at least " + std::to_string(kFewestPoints) +
@@ -109,6 +112,10 @@ Status statusOfRegistration(const Registration& registration, const SweepPoints&
   if (agreeing < kLeastAgreeing * matches)
     return make(Health::Lost, Reason::Mismatch,
                 "only " + number(100.0 * agreeing / matches, "%.0f") + " % of the surface patches fit the local map");
+  if (registration.free.isFree() && registration.covered < kLeastCovered)
+    return make(Health::Lost, Reason::Mismatch,
+                "only " + number(100.0 * registration.covered, "%.0f") +
+                    " % of the near surface patches lie on the local map, and they do not constrain the motion");
   if (registration.free.isFree()) {
     const Matrix3d R = T_odom_base.R().transpose();
     std::string names;

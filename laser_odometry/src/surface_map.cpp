@@ -28,13 +28,13 @@ std::optional<std::uint64_t> findKey(const Vector3d& p, double size) {
 }
 
 const Plane& MapCell::currentPlane() {
-  if (!is_current) plane = fitPlane(moments, centre);
+  if (!is_current) plane = fit();
   is_current = true;
   return plane;
 }
 
 void MapCell::archive(urban_nav_core::Archive& archive) {
-  archive(centre, moments, first_sweep, last_sweep, residual, residual_sweep);
+  archive(centre, moments, ring, first_sweep, last_sweep, residual, residual_sweep);
   archive.require(moments.count > 0.0, "cell without points");
   is_current = false;
 }
@@ -80,21 +80,23 @@ MapCell* SurfaceMap::Level::obtain(const Vector3d& p, std::int32_t sweep) {
   return &cells[number];
 }
 
-void SurfaceMap::insert(const std::vector<Vector3d>& points, const Vector3d& origin, std::int32_t sweep) {
-  // Points of the sweep by smallest cubes, which are then added to the cubes of all levels: each point is processed
+void SurfaceMap::insert(const std::vector<Segment>& segments, const Vector3d& origin, std::int32_t sweep) {
+  // Segments of the sweep by smallest cubes, which are then added to the cubes of all levels: each segment is processed
   // once.
   std::vector<MapCell> parts;
-  CellTable table(points.size() / 4 + 64);
+  CellTable table(segments.size() / 2 + 64);
   const double size = levels_.front().size;
-  for (const Vector3d& p : points) {
-    const std::optional<std::uint64_t> key = findKey(p, size);
+  for (const Segment& segment : segments) {
+    const std::optional<std::uint64_t> key = findKey(segment.mean, size);
     if (!key) continue;
     const std::uint32_t number = table.insert(*key);
     if (number == parts.size()) {
       parts.emplace_back();
-      parts.back().centre = cubeCentre(p, size);
+      parts.back().centre = cubeCentre(segment.mean, size);
     }
-    parts[number].moments.add(p - parts[number].centre);
+    MapCell& part = parts[number];
+    part.moments.add(segment.count, segment.mean - part.centre, segment.covariance);
+    part.addRing(segment.ring);
   }
   for (Level& level : levels_) {
     for (const MapCell& part : parts) {
@@ -102,6 +104,7 @@ void SurfaceMap::insert(const std::vector<Vector3d>& points, const Vector3d& ori
       MapCell* cell = level.obtain(part.centre, sweep);
       if (cell == nullptr) continue;
       cell->moments.add(part.moments, part.centre - cell->centre);
+      cell->addRing(part.ring);
       if (cell->moments.count > kMostPoints) cell->moments.scale(0.5);
       cell->last_sweep = sweep;
       cell->is_current = false;
@@ -128,7 +131,7 @@ bool SurfaceMap::hasPlane(const MapCell& cell, int level) const {
   const std::uint32_t number = finer.table.find(*key);
   if (number == CellTable::kNone) return false;
   const MapCell& found = finer.cells[number];
-  return (found.is_current ? found.plane : fitPlane(found.moments, found.centre)).usable;
+  return (found.is_current ? found.plane : found.fit()).usable;
 }
 
 void SurfaceMap::prune(const Vector3d& p, double distance) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "moments.hpp"
+#include "sweep_points.hpp"
 #include "urban_nav_registration/cloud/cell_table.hpp"
 
 namespace laser_odometry {
@@ -15,6 +16,8 @@ struct MapCell {
   std::uint64_t key = 0;
   Vector3d centre = Vector3d::Zero();  ///< in odom, m
   Moments moments;
+  /// Ring of the points; kNoRing without points, kSeveralRings if they are of different or unknown rings.
+  std::int32_t ring = kNoRing;
   std::int32_t first_sweep = 0, last_sweep = 0;  ///< first and last sweep with points here
   /// Mean distance of the patches of a sweep from the plane, m, and the number of that sweep (-1: none).
   double residual = 0.0;
@@ -23,6 +26,15 @@ struct MapCell {
   bool is_current = false;  ///< `plane` is up to date with `moments`
   Plane plane;
 
+  static constexpr std::int32_t kNoRing = -1, kSeveralRings = -2;
+
+  void addRing(std::int32_t other) {
+    const bool is_same = (ring == kNoRing || ring == other) && other != Segment::kUnknownRing;
+    ring = is_same ? other : kSeveralRings;
+  }
+  /// Fits a plane to the points. Not usable if they are of a single ring: where surfaces are uneven or meet, they
+  /// spread in the cone of the ring, which is no surface and moves with the sensor.
+  Plane fit() const { return ring == kSeveralRings ? fitPlane(moments, centre) : Plane(); }
   const Plane& currentPlane();
   void archive(urban_nav_core::Archive& archive);
 };
@@ -39,8 +51,8 @@ class SurfaceMap {
   std::size_t size() const;
   void clear();
 
-  /// Adds the points of one sweep (in odom), measured from `origin`.
-  void insert(const std::vector<Vector3d>& points, const Vector3d& origin, std::int32_t sweep);
+  /// Adds the segments of one sweep (in odom), measured from `origin`, each to the cubes that hold its mean.
+  void insert(const std::vector<Segment>& segments, const Vector3d& origin, std::int32_t sweep);
 
   /// Returns the cube of the finest level not below `level` with a usable plane whose extent contains a point; null if
   /// there is none.

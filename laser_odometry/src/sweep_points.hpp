@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "moments.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/laser/sweep.hpp"
@@ -14,11 +15,27 @@ using urban_nav_core::Pose;
 using urban_nav_core::Vector3d;
 using urban_nav_core::Vector6d;
 
+/// Consecutive returns of one ring that are close together. Assigned to a cube as a unit, by their mean: the noise of
+/// single ranges would divide a surface near the border of two cubes by the sign of the noise, which displaces the
+/// parts (docs/derivations/laser_odometry.md).
+struct Segment {
+  Vector3d mean = Vector3d::Zero();        ///< m
+  Matrix3d covariance = Matrix3d::Zero();  ///< of the returns, m^2
+  double count = 0.0;                      ///< returns
+  double time = 0.0;                       ///< mean time, s after the reference time of the sweep; 0 without times
+  double half_square = 0.0;                ///< mean of half of the squared time, s^2
+  std::int32_t ring = 0;                   ///< Beam::ring, or kUnknownRing
+
+  static constexpr std::int32_t kUnknownRing = -3;
+
+  void archive(urban_nav_core::Archive& archive) { archive(mean, covariance, count, time, half_square, ring); }
+};
+
 /// Returns of a sweep, each in base_link at the time of its measurement.
 struct SweepPoints {
-  std::vector<Eigen::Vector3f> p;      ///< m
-  std::vector<float> time;             ///< s after the reference time; zeros without times
-  double first_s = 0.0, last_s = 0.0;  ///< range of `time`
+  std::vector<Segment> segments;       ///< in order of their first returns
+  double first_s = 0.0, last_s = 0.0;  ///< range of the times of the returns
+  int used = 0;                        ///< returns in `segments`
   int valid = 0;                       ///< finite beams, `near` and far ones included
   int near = 0;                        ///< dropped: nearer than min_range
 
@@ -26,9 +43,10 @@ struct SweepPoints {
 };
 
 /// Returns the beams of a sweep between two ranges (m). Drops beams that are not finite, and those with a time more
-/// than `longest_s` from the reference, which is invalid.
+/// than `longest_s` from the reference, which is invalid. `length`: largest distance between returns of a segment, m.
+/// Without rings (all beams have the same), each return is a segment.
 SweepPoints collectPoints(const urban_nav_core::Sweep& sweep, const Pose& T_base_lidar, double min_range,
-                          double max_range, double longest_s);
+                          double max_range, double longest_s, double length);
 
 /// Motion of base_link within a sweep, SE(3) tangents in base_link at the reference time: T_reference_now =
 /// Exp(t twist + t^2 / 2 acceleration).
@@ -44,7 +62,10 @@ struct SweepMotion {
   }
 };
 
-/// Transforms the points to base_link at the reference time. Error below 1 um for rotations of 0.3 rad in a sweep.
-std::vector<Vector3d> deskew(const SweepPoints& points, const SweepMotion& motion);
+/// Transforms the segments to base_link at the reference time. Error below 1 um for rotations of 0.3 rad in a sweep.
+std::vector<Segment> deskew(const SweepPoints& points, const SweepMotion& motion);
+
+/// Transforms segments to another frame.
+std::vector<Segment> transformed(const Pose& T, std::vector<Segment> segments);
 
 }  // namespace laser_odometry

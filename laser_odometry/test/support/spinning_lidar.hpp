@@ -104,12 +104,19 @@ struct SpinningLidar {
   double lowest_deg = -20.0, highest_deg = 12.0;
   double sweep_s = 0.1;
   double sigma_m = 0.01;
+  double ring_range_sigma_m = 0.0, ring_angle_sigma = 0.0;  ///< m, rad: constant errors of the rings
   Pose T_base_lidar;
 
   /// Returns the sweep whose middle is at `reference_s` along a motion T_world_base(t).
   Sweep scan(const BoxWorld& world, const std::function<Pose(double)>& T_world_base, double reference_s,
              std::uint64_t seed) const {
     urban_nav_core::testing::Dice dice(seed * 7919 + static_cast<std::uint64_t>(std::llround(reference_s * 1000.0)));
+    std::vector<double> range_errors, elevation_errors;
+    urban_nav_core::testing::Dice constants(7);
+    for (int ring = 0; ring < rings; ++ring) {
+      range_errors.push_back(ring_range_sigma_m * constants.normal());
+      elevation_errors.push_back(ring_angle_sigma * constants.normal());
+    }
     Sweep sweep;
     sweep.reference = toStamp(reference_s);
     sweep.duration = sweep_s;
@@ -122,9 +129,13 @@ struct SpinningLidar {
       for (int ring = 0; ring < rings; ++ring) {
         const double elevation =
             (lowest_deg + (highest_deg - lowest_deg) * ring / std::max(1, rings - 1)) * M_PI / 180.0;
-        const Vector3d d(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                         std::sin(elevation));
-        const double range = world.trace(T.t(), T.q() * d) + sigma_m * dice.normal();
+        const auto direction = [azimuth](double angle) {
+          return Vector3d(std::cos(angle) * std::cos(azimuth), std::cos(angle) * std::sin(azimuth), std::sin(angle));
+        };
+        const auto i = static_cast<std::size_t>(ring);
+        const Vector3d d = direction(elevation);
+        const double range = world.trace(T.t(), T.q() * direction(elevation + elevation_errors[i])) + range_errors[i] +
+                             sigma_m * dice.normal();
         if (range < 0.3) continue;
         urban_nav_core::Beam beam;
         beam.stamp = toStamp(time);
