@@ -49,11 +49,13 @@ FrameTrust assessFrame(const FrameEvidence& frame, const std::vector<Failure>& f
                        const Confirmation& confirmation, const Parameters& parameters) {
   FrameTrust trust;
   trust.stamp = frame.stamp;
-  const bool fails = std::any_of(failures.begin(), failures.end(), [](const Failure& each) { return each.is_present; });
+  const bool fails = std::any_of(failures.begin(), failures.end(),
+                                 [](const Failure& each) { return each.is_present && each.affects_position; });
   trust.state = classify(frame, fails, confirmation.isComplete());
   double widening = 0.0;
   for (const Failure& failure : failures) {
     if (failure.is_present) trust.tests += (trust.tests.empty() ? "" : " ") + failure.test;
+    if (!failure.affects_position) continue;
     const double drift = 0.01 * parameters.unexplained_drift * failure.distance;
     widening += drift * drift;
   }
@@ -88,7 +90,7 @@ std::vector<FrameTrust> assessFrames(const std::vector<FrameEvidence>& frames, c
       const urban_nav_core::StampNs end = spreads ? test->interval.to : std::min(frame.stamp, test->interval.to);
       const bool is_inside = frame.stamp >= test->interval.from && frame.stamp <= test->interval.to;
       failures.push_back({test->name, travelledAt(frames, end) - travelledAt(frames, test->interval.from),
-                          !test->is_corrected || is_inside});
+                          !test->is_corrected || is_inside, test->affects_position});
     }
     trusts.push_back(assessFrame(frame, failures, confirmation, parameters));
   }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_core/trajectory/normal_tail.hpp"
 
 namespace urban_nav_trust {
 
@@ -47,9 +48,6 @@ Matrix priorInformation() {
   return sigma.cwiseAbs2().cwiseInverse().asDiagonal();
 }
 
-/// Returns the upper tail probability of the standard normal distribution.
-double upperTail(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
-
 Interval span(const std::vector<KeyframeMatches>& keyframes) {
   return {keyframes.front().stamp, keyframes.back().stamp};
 }
@@ -64,7 +62,7 @@ bool addScaleTest(const std::vector<KeyframeMatches>& keyframes, double rig_scal
   test.interval = span(keyframes);
   test.statistic = z * z;
   test.degrees_of_freedom = 1.0;
-  test.p_value = 2.0 * upperTail(std::abs(z));
+  test.p_value = urban_nav_core::normalTwoSidedTail(z);
   test.sentence = "Distances by stereo are " + formatNumber(100.0 * std::abs(found.scale)) + " % (+-" +
                   formatNumber(100.0 * found.sigma, 2) + ") " + (found.scale < 0.0 ? "shorter" : "longer") +
                   " than those by the lasers, at " + std::to_string(found.matches) + " points of " +
@@ -97,7 +95,7 @@ bool addExchangeTest(const std::vector<KeyframeMatches>& keyframes, std::vector<
   test.interval = span(keyframes);
   test.statistic = mean / std::sqrt(variance);
   test.degrees_of_freedom = count;
-  test.p_value = upperTail(test.statistic);
+  test.p_value = urban_nav_core::normalUpperTail(test.statistic);
   test.sentence = formatNumber(100.0 * stated / count, 2) +
                   " % of the stereo points on walls lie on surfaces measured by the lasers, " +
                   formatNumber(100.0 * exchanged / count, 2) + " % if the left and right laser are exchanged.";

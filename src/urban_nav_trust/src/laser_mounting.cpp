@@ -7,12 +7,14 @@
 
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/sequence/change_detector.hpp"
+#include "urban_nav_core/trajectory/normal_tail.hpp"
 #include "urban_nav_core/trajectory/statistics.hpp"
 
 namespace urban_nav_trust {
 
 using urban_nav_core::ChangeDetector;
 using urban_nav_core::formatNumber;
+using urban_nav_core::normalTwoSidedTail;
 
 namespace {
 
@@ -29,8 +31,6 @@ constexpr std::int64_t kLeastAngles = 8;
 // Standard deviations of a measured mounting: angle (rad) and position (m) of laser and camera.
 constexpr double kLaserTurnPrior = 0.01, kLaserShiftPrior = 0.02;
 constexpr double kSameChange = 0.25;  // relative difference below which two lasers have turned by the same angle
-
-double normalTail(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
 
 /// Result for one laser.
 struct Mounting {
@@ -55,8 +55,7 @@ Mounting assessLaser(const std::string& name, int number, const std::vector<Lase
   mounting.p_change = urban_nav_core::changeProbability(mounting.detector.statistic(), count);
   const double stated = std::hypot(kLaserTurnPrior, kLaserShiftPrior / mounting.lever);
   if (!mounting.hasChanged())
-    mounting.p_level =
-        2.0 * normalTail(std::abs(mounting.level()) / std::hypot(stated, mounting.segments.front().sigma));
+    mounting.p_level = normalTwoSidedTail(mounting.level() / std::hypot(stated, mounting.segments.front().sigma));
   return mounting;
 }
 

@@ -7,6 +7,7 @@
 
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/trajectory/chi_square.hpp"
+#include "urban_nav_core/trajectory/normal_tail.hpp"
 
 namespace urban_nav_trust {
 
@@ -161,7 +162,7 @@ double MotionMonitor::excessDelay() const {
   return std::max(0.0, std::abs(imu_delay_) - kTransport) / std::hypot(imu_delay_sigma_, kClockFloor);
 }
 
-double MotionMonitor::delayProbability() const { return std::erfc(excessDelay() / std::sqrt(2.0)); }
+double MotionMonitor::delayProbability() const { return urban_nav_core::normalTwoSidedTail(excessDelay()); }
 
 std::optional<ConsistencyTest> MotionMonitor::turnTest() const {
   if (turn_windows_ < 2 && !no_gyroscope_.any()) return std::nullopt;

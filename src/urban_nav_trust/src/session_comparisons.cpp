@@ -8,6 +8,7 @@
 
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/trajectory/chi_square.hpp"
+#include "urban_nav_core/trajectory/normal_tail.hpp"
 
 namespace urban_nav_trust {
 
@@ -17,9 +18,6 @@ namespace {
 
 constexpr double kDegrees = 180.0 / M_PI;
 constexpr double kPoseNumbers = 6.0;
-
-/// Returns the probability that a normal variable exceeds this many standard deviations in magnitude.
-double twoSided(double deviations) { return std::erfc(std::abs(deviations) / std::sqrt(2.0)); }
 
 double chiSquareTail(double x, double dof) { return 1.0 - urban_nav_core::chiSquareProbability(x, dof); }
 
@@ -42,7 +40,7 @@ void addLidarScale(const LidarComparison& lidar, double rig_scale, TestResults& 
   test.interval = lidar.interval;
   test.statistic = z * z;
   test.degrees_of_freedom = 1.0;
-  test.p_value = twoSided(z);
+  test.p_value = urban_nav_core::normalTwoSidedTail(z);
   test.sentence = "Distances by stereo are " + formatNumber(100.0 * std::abs(lidar.scale)) + " % (+-" +
                   formatNumber(100.0 * lidar.scale_sigma, 2) + ") " + (lidar.scale > 0.0 ? "shorter" : "longer") +
                   " than those by the LiDAR.";

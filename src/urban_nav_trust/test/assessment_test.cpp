@@ -136,6 +136,21 @@ TEST(Assessment, AFailureWhoseCauseWasCorrectedAffectsItsIntervalOnly) {
   }
 }
 
+TEST(Assessment, AFailureOfTheMapAloneLeavesPositionsKnown) {
+  TestResults results;
+  results.tests = bothPass();
+  const auto sound = assessFrames(drive(), results, true, {});
+  results.tests.push_back(makeTest("a", 1e-9, 50, 52));
+  results.tests.back().affects_position = false;
+  const auto frames = assessFrames(drive(), results, true, {});
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_EQ(frames[i].state, TrustState::Known) << i;
+    EXPECT_EQ(frames[i].probabilities, sound[i].probabilities) << i;
+    EXPECT_EQ(frames[i].tests, "a") << i;
+  }
+  EXPECT_EQ(assessMap(frames, results, {}).state, TrustState::Unsure);
+}
+
 TEST(Assessment, AFailureWidensAndNamesItselfFromItsBeginOn) {
   TestResults results;
   results.tests = bothPass();

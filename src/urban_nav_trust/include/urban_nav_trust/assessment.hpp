@@ -49,12 +49,13 @@ bool hasFailed(const ConsistencyTest& test, const Parameters& parameters);
 /// Failed test that affects a frame.
 struct Failure {
   std::string test;
-  double distance = 0.0;   ///< m travelled during the interval of the test
-  bool is_present = true;  ///< false: its cause was corrected, and the frame is not in the interval
+  double distance = 0.0;         ///< m travelled during the interval of the test
+  bool is_present = true;        ///< false: its cause was corrected, and the frame is not in the interval
+  bool affects_position = true;  ///< ConsistencyTest::affects_position
 };
 /// Returns the trust in a frame. Its covariance is known up to the factor of Confirmation::scales, over which the
-/// probabilities are averaged; each failure adds Parameters::unexplained_drift of its distance. UNSURE at a
-/// failure that is present and unless the confirmation is complete.
+/// probabilities are averaged; each failure that affects the position adds Parameters::unexplained_drift of its
+/// distance. UNSURE at such a failure that is present, and unless the confirmation is complete.
 FrameTrust assessFrame(const FrameEvidence& frame, const std::vector<Failure>& failures,
                        const Confirmation& confirmation, const Parameters& parameters);
 

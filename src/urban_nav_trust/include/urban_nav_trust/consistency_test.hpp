@@ -20,6 +20,8 @@ struct ConsistencyTest {
   std::string remedy;    ///< for the user; also set if the test passes
   /// The test fails, but its cause was measured: results are corrected from the end of `interval` on.
   bool is_corrected = false;
+  /// A failure makes the position uncertain. False: it concerns only the map by lasers.
+  bool affects_position = true;
 };
 
 /// Test that was not possible, with the reason.

@@ -61,6 +61,24 @@ TestResults readTests(const urban_nav_store::SessionId& session, urban_nav_store
   return results;
 }
 
+/// Returns whether a laser took part in measuring the poses: as odometry, or in an accepted closure.
+bool havePosesByLasers(const MapContext& context) {
+  for (const SessionOdometry* run : context.runs())
+    if (run->T_base_lidar) return true;
+  for (std::size_t i = 0; i < context.assessments.size(); ++i)
+    if (context.closures[i].method == urban_nav_core::ClosureMethod::Icp &&
+        context.assessments[i].verdict == urban_nav_core::ClosureVerdict::Accepted)
+      return true;
+  return false;
+}
+
+/// Marks the tests of planar lasers that have only measured the map.
+void markTestsOfMap(bool poses_by_lasers, TestResults& results) {
+  for (ConsistencyTest& test : results.tests)
+    if (test.name == urban_nav_trust::kMountingTest || test.name == urban_nav_trust::kExchangeTest)
+      test.affects_position = poses_by_lasers;
+}
+
 void removeLaser(int laser, std::vector<urban_nav_trust::KeyframeMatches>& keyframes) {
   for (urban_nav_trust::KeyframeMatches& keyframe : keyframes) {
     auto& matches = keyframe.matches;
@@ -154,9 +172,11 @@ TrustRun assessTrust(MapContext& context, const urban_nav_trust::Parameters& par
   TrustRun result;
   const std::vector<const SessionOdometry*> runs = context.runs();
   const std::vector<SessionTrajectory>& sessions = context.trajectories;
+  const bool poses_by_lasers = havePosesByLasers(context);
   std::vector<TestResults> by_session;
   for (std::size_t s = 0; s < sessions.size(); ++s) {
     by_session.push_back(testSession(context, s, parameters));
+    markTestsOfMap(poses_by_lasers, by_session.back());
     append(by_session.back(), result.results);
   }
   addMissingInputs(context, result.results);
