@@ -14,6 +14,10 @@ using urban_nav_core::UserError;
 
 namespace {
 
+/// Version since which blocks of scans (blocks/scan_block.hpp) and features of keyframes have their present encoding.
+/// No table changed with it, and older encodings are read.
+constexpr int kPresentEncoding = 12;
+
 /// The tables, indexes and triggers of a schema: name and SQL.
 using SqlObjects = std::vector<std::pair<std::string, std::string>>;
 
@@ -100,7 +104,7 @@ void addColumns(Connection& connection, const Table& before, const Table& after)
 namespace schema {
 
 int latestVersion(const Tables& tables) {
-  int latest = 1;
+  int latest = kPresentEncoding;
   for (const Table* table : tables) {
     latest = std::max(latest, table->since);
     for (const Column& column : table->columns) latest = std::max(latest, column.since);
