@@ -23,6 +23,13 @@ namespace {
 /// detected when the data are read.
 constexpr std::uintmax_t kCheckedThroughout = std::uintmax_t{64} << 20;
 
+/// Size of a page of a new store. Each table and each index takes at least one, and most tables of a session hold
+/// little: with SQLite's default of 4096 bytes a store takes 160 kB more.
+constexpr int kPageBytes = 1024;
+
+/// Size of the log at which its pages are moved to the file.
+constexpr std::int64_t kLogBytes = std::int64_t{4} << 20;
+
 std::uintmax_t toSize(const std::string& path) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
@@ -41,7 +48,8 @@ void make(const std::string& path) {
   ::unlink(partial.path().c_str());  // left by a process killed here
   removeBeside(partial.path());
   Connection connection(partial.path(), Connection::Mode::Create, path);
-  connection.execute("PRAGMA auto_vacuum=INCREMENTAL");  // has an effect only before tables exist
+  // Both have an effect only before tables exist.
+  connection.execute("PRAGMA page_size=" + std::to_string(kPageBytes) + ";PRAGMA auto_vacuum=INCREMENTAL");
   schema::create(connection);
   connection.execute("PRAGMA journal_mode=WAL");
   connection.close();
@@ -90,6 +98,8 @@ Store::Implementation::Implementation(const std::string& path, Access access)
     statement.step();
     statement.reset();
     connection.execute("PRAGMA synchronous=FULL");
+    connection.execute("PRAGMA wal_autocheckpoint=" +
+                       std::to_string(kLogBytes / connection.integer("PRAGMA page_size")));
     schema::migrate(connection, schema::tables());
   }
   if (access == Access::Snapshot || access == Access::Frozen) snapshot_.emplace(connection);

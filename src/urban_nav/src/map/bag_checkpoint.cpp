@@ -2,6 +2,7 @@
 #include "map/bag_checkpoint.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -39,6 +40,14 @@ std::string_view BagCheckpoint::state(const std::string& key) const {
   for (const StageState& stage : stages)
     if (stage.first == key) return stage.second;
   return {};
+}
+
+bool isPartOfSplit(const std::string& bag) {
+  std::filesystem::path name = std::filesystem::path(bag).filename();
+  if (name.extension() == ".zst") name = name.stem();
+  const std::string stem = name.stem().string();
+  const std::size_t last = stem.find_last_not_of("0123456789");
+  return last != std::string::npos && last + 1 < stem.size() && stem[last] == '_';
 }
 
 std::string packBagCheckpoint(BagCheckpoint checkpoint) {

@@ -11,6 +11,10 @@
 
 namespace urban_nav {
 
+/// Key of a checkpoint without the states of reader and stages, of a session whose last bag is not a part of a split
+/// recording. It serves to recognise a bag that follows nevertheless.
+constexpr const char* kWholeStage = "whole";
+
 /// State of `map` at the end of a bag, stored so that the next bag of the recording continues seamlessly.
 struct BagCheckpoint {
   using StageState = std::pair<std::string, std::string>;  ///< Stage::Description::key, SessionPass::checkpoint()
@@ -23,6 +27,10 @@ struct BagCheckpoint {
   /// Returns the state of a stage; empty if it had none.
   std::string_view state(const std::string& key) const;
 };
+
+/// Returns whether a recorder may write a further bag after this one: its name ends in `_N`, as rosbag, rosbag2 and
+/// `convert --split` name the parts of a recording. A date, `_2026-11-30-14-05-00`, is no such number.
+bool isPartOfSplit(const std::string& bag);
 
 std::string packBagCheckpoint(BagCheckpoint checkpoint);
 /// Reads this version and version 1, which had only visual odometry. Throws DataError for other bytes.

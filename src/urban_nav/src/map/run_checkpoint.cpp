@@ -81,6 +81,16 @@ std::optional<RunCheckpoint::ResumePoint> RunCheckpoint::readResumePoint(Store& 
   }
 }
 
+bool RunCheckpoint::followsWhole(Store& store, const SessionId& id, std::size_t session) const {
+  const std::optional<std::string> bytes = store.states().get(id, kWholeStage);
+  if (!bytes) return false;
+  try {
+    return coveredBags(unpackBagCheckpoint(*bytes), plans_[session].bags, sessions_[session].input.begin) == 0U;
+  } catch (const urban_nav_core::DataError&) {
+    return false;  // of another version
+  }
+}
+
 std::string RunCheckpoint::configurationDifferences(Store& store, const SessionId& id, std::size_t session) const {
   return differences(plans_[session].fingerprint, storedFingerprint(store, id), {"inputs", "stages", "store"});
 }
@@ -112,6 +122,10 @@ void RunCheckpoint::findContinuedSessions(Console& console) {
       // A session without new bags, all of whose bags are given, is mapped again.
       sessions_[i].continued =
           point && (point->bags < plans_[i].bags.size() || point->bags < point->checkpoint.bags.size());
+      if (followsWhole(store, known.id, i))
+        console.info("store: " + name + " follows session " + known.name + ", but becomes a session of its own: " +
+                     "the state of " + known.name + " is not kept, since the name of its last bag does not end in " +
+                     "_N as those of a split recording do; mapped together, the bags are one session");
       if (!sessions_[i].continued) continue;
       if (const std::string difference = configurationDifferences(store, known.id, i); !difference.empty()) {
         sessions_[i].continued = false;
@@ -290,6 +304,17 @@ void RunCheckpoint::finishSession(const std::vector<BagCheckpoint::StageState>& 
   commit();
 }
 
+void RunCheckpoint::dropCheckpoint(std::size_t session) {
+  const SessionId& id = sessions_[session].id;
+  const std::optional<std::string> bytes = store_->states().get(id, kBagStage);
+  if (!bytes) return;
+  BagCheckpoint checkpoint = unpackBagCheckpoint(*bytes);
+  checkpoint.reader.clear();
+  checkpoint.stages.clear();
+  store_->states().put(id, kWholeStage, packBagCheckpoint(std::move(checkpoint)));
+  store_->states().remove(id, kBagStage);
+}
+
 void RunCheckpoint::endRun() {
   const auto last = std::max_element(sessions_.begin(), sessions_.end(), [](const MapSession& a, const MapSession& b) {
     return a.input.begin < b.input.begin;
@@ -298,6 +323,7 @@ void RunCheckpoint::endRun() {
     for (const std::string& key : keys_) store_->states().remove(session.id, key);
   for (const urban_nav_store::Session& session : store_->sessions().all())
     if (session.id != last->id) store_->states().remove(session.id, kBagStage);
+  if (!isPartOfSplit(last->input.paths.back())) dropCheckpoint(static_cast<std::size_t>(last - sessions_.begin()));
   store_->shrink();
   // Last, after what takes time: a run that is killed before its end is not complete.
   for (const urban_nav_store::Session& session : store_->sessions().all())

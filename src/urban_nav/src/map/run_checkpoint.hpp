@@ -20,7 +20,7 @@ namespace urban_nav {
 ///
 /// With --store, the sessions of that store are in session.db from the start. A session that is mapped again is
 /// replaced; one whose recording continues in the bags is continued after its last known bag (bag_checkpoint.hpp). The
-/// checkpoint of the session that ends last is kept in the store.
+/// checkpoint of the session that begins last is kept in the store if its last bag is a part of a split recording.
 class RunCheckpoint {
  public:
   /// Sets id and `continued` of each session, and the name of continued ones. `sessions` must outlive the object.
@@ -76,6 +76,8 @@ class RunCheckpoint {
     std::string difference;  ///< reason why sessions were removed, for the user
   };
 
+  /// Returns whether the bags of a session follow those of a stored one of which no checkpoint is kept.
+  bool followsWhole(urban_nav_store::Store& store, const SessionId& id, std::size_t session) const;
   /// Matches sessions to those of --store.
   void findContinuedSessions(Console& console);
   /// Opens the store and prints how it is used.
@@ -90,6 +92,8 @@ class RunCheckpoint {
   std::optional<ResumePoint> findResumePoint(urban_nav_store::Store& store, const SessionId& id, std::size_t session);
   std::string configurationDifferences(urban_nav_store::Store& store, const SessionId& id, std::size_t session) const;
   void writeSession(std::size_t session);
+  /// Removes the checkpoint of a session after which no bag can come, except which bags it covers.
+  void dropCheckpoint(std::size_t session);
 
   const MapOptions& options_;
   const std::string path_;

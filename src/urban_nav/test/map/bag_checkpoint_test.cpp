@@ -38,6 +38,15 @@ TEST(BagCheckpointTest, ReadsTheVersionWithVisualOdometryOnly) {
   EXPECT_EQ(back.stages, (std::vector<BagCheckpoint::StageState>{{"swf_vo", "vo"}}));
 }
 
+TEST(BagCheckpointTest, KnowsWhichNamesArePartsOfASplitRecording) {
+  for (const char* name : {"drive_0.bag", "/a.b/drive_12.bag", "prefix_2026-11-30-14-05-00_3.bag", "rec_0.mcap",
+                           "rec_1.db3", "drive_0.bag.zst", "2026-11-30-14-05-00_0.bag"})
+    EXPECT_TRUE(isPartOfSplit(name)) << name;
+  for (const char* name : {"drive.bag", "day2.bag", "prefix_2026-11-30-14-05-00.bag", "/rec_0/drive.bag", "_.bag",
+                           "7.bag", "drive_0x.bag", "drive_.bag", ""})
+    EXPECT_FALSE(isPartOfSplit(name)) << name;
+}
+
 TEST(BagCheckpointTest, DetectsConsecutiveBags) {
   const BagCheckpoint state{{"a", "b"}, kEnd, "", {}};
   const auto covered = [&](const std::vector<std::string>& bags, double seconds) {

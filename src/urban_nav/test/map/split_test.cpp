@@ -219,8 +219,8 @@ TEST_F(Split, IsAnotherSessionWhereItCannotGoOn) {
   const std::string said = map({part(1)}, folder.file("other"), out, other_window);
   EXPECT_NE(said.find("does not continue session part_0.bag: other parameters"), std::string::npos) << said;
   EXPECT_EQ(readStoreInfo(folder.file("other/session.db")).sessions.size(), 2U);
-  urban_nav_input::testing::delayBag(part(1), folder.file("late.bag"), 100.0);
-  map({folder.file("late.bag")}, folder.file("late"), out);
+  urban_nav_input::testing::delayBag(part(1), folder.file("late_1.bag"), 100.0);
+  map({folder.file("late_1.bag")}, folder.file("late"), out);
   const StoreInfo info = readStoreInfo(folder.file("late/session.db"));
   ASSERT_EQ(info.sessions.size(), 2U);
   EXPECT_FALSE(info.sessions[0].next_bag) << "what comes now goes on in the last one";
@@ -228,6 +228,30 @@ TEST_F(Split, IsAnotherSessionWhereItCannotGoOn) {
   map({part(0)}, out, out);
   EXPECT_TRUE(readFile(out + "/trajectory.tum") == first) << "mapped again, it is replaced";
   EXPECT_EQ(readStoreInfo(out + "/session.db").sessions.size(), 1U);
+}
+
+std::uintmax_t storeBytes(const std::string& out) { return fs::file_size(out + "/session.db"); }
+
+// A bag that is not numbered is the whole recording: its store has no state of a filter. One that follows nevertheless
+// is a session of its own, with a reason; both at once are one session.
+TEST_F(Split, KeepsNoStateOfAWholeRecording) {
+  const std::string first = folder.file("first.bag"), second = folder.file("second.bag"), out = folder.file("out");
+  fs::copy_file(part(0), first);
+  fs::copy_file(part(1), second);
+  map({part(0)}, folder.file("part"));
+  map({first}, out);
+  EXPECT_FALSE(readStoreInfo(out + "/session.db").sessions[0].next_bag);
+  EXPECT_LT(readStoreInfo(out + "/session.db").sessions[0].state_bytes, 10'000);
+  EXPECT_LT(storeBytes(out) + 200'000, storeBytes(folder.file("part")));
+  EXPECT_TRUE(readFile(out + "/trajectory.tum") == readFile(folder.file("part/trajectory.tum")));
+  const std::string output = map({second}, folder.file("apart"), out);
+  EXPECT_NE(output.find("second.bag follows session first.bag, but becomes a session of its own"), std::string::npos)
+      << output;
+  EXPECT_EQ(readStoreInfo(folder.file("apart/session.db")).sessions.size(), 2U);
+  map({first, second, part(2)}, folder.file("together"), out);
+  EXPECT_EQ(readStoreInfo(folder.file("together/session.db")).sessions.size(), 1U);
+  for (const std::string& name : kSameWhenSplit)
+    EXPECT_TRUE(readFile(whole() + "/" + name) == readFile(folder.file("together/" + name))) << name;
 }
 
 /// Without times of day and durations.

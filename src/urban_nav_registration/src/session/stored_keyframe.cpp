@@ -2,6 +2,8 @@
 #include "urban_nav_registration/session/stored_keyframe.hpp"
 
 #include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_store/deflate.hpp"
 
 namespace urban_nav_registration {
 
@@ -11,6 +13,16 @@ namespace {
 
 constexpr const char* kKind = "keyframe of loop_metric";
 constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+
+/// Returns the features as sealed; those of stores of schema 11 and older are not compressed.
+std::string unpackFeatures(const std::string& features) {
+  if (urban_nav_core::isSealed(features)) return features;
+  std::optional<std::string> sealed = urban_nav_store::inflated(features, kMostBytes);
+  if (!sealed)
+    throw urban_nav_core::DataError(std::string("state of ") + kKind, "is damaged: it cannot be unpacked", "");
+  return std::move(*sealed);
+}
 
 }  // namespace
 
@@ -23,12 +35,13 @@ StoredKeyframe toStoredKeyframe(const Keyframe& keyframe) {
   rest.image.clear();
   urban_nav_core::Archive bytes;
   archive(bytes, rest);
-  stored.features = urban_nav_core::seal(kKind, kVersion, bytes.take());
+  stored.features = urban_nav_store::deflated(urban_nav_core::seal(kKind, kVersion, bytes.take()));
   return stored;
 }
 
 Keyframe toKeyframe(const StoredKeyframe& stored, const std::string& session) {
-  urban_nav_core::Archive bytes(urban_nav_core::unseal(kKind, kVersion, stored.features), kKind);
+  const std::string features = unpackFeatures(stored.features);
+  urban_nav_core::Archive bytes(urban_nav_core::unseal(kKind, kVersion, features), kKind);
   Keyframe keyframe;
   archive(bytes, keyframe);
   bytes.finish();

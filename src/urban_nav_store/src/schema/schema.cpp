@@ -14,6 +14,14 @@ using urban_nav_core::UserError;
 
 namespace {
 
+/// Version since which blocks of scans (blocks/scan_block.hpp) and features of keyframes have their present encoding;
+/// older ones are read.
+constexpr int kPresentEncoding = 12;
+
+/// Version since which all tables with a column of bytes are stored by row number: with pages of 1024 bytes, a pose
+/// with its covariances does not fit into a page of the index.
+constexpr int kBytesByRowNumber = 12;
+
 /// The tables, indexes and triggers of a schema: name and SQL.
 using SqlObjects = std::vector<std::pair<std::string, std::string>>;
 
@@ -39,17 +47,24 @@ std::string keyNames(const Table& table) {
   return text;
 }
 
+/// Returns whether rows are stored by row number with an index, rather than in the index itself, as SQLite recommends
+/// for rows of less than a twentieth of a page.
+bool isByRowNumber(const Table& table, int version) {
+  const bool has_bytes = std::any_of(table.columns.begin(), table.columns.end(),
+                                     [](const Column& column) { return column.type == ColumnType::Blob; });
+  return table.wide || (has_bytes && version >= kBytesByRowNumber);
+}
+
 /// Triggers maintain the number of rows and the sum of checksums of each session, so that a lost page is detected with
-/// its rows. Wide rows are stored by row number with an index, narrow ones in the index itself, as SQLite recommends
-/// for tables without row numbers.
-SqlObjects sqlObjects(const Table& table) {
+/// its rows.
+SqlObjects sqlObjects(const Table& table, int version) {
   const std::string name = table.name, session = table.columns.front().name;
   std::string columns;
   for (const Column& column : table.columns) columns += column.name + " " + sqlType(column.type) + " NOT NULL,";
   const std::string counted = " WHERE name='" + name + "' AND session=";
   return {
       {name, "CREATE TABLE " + name + "(crc INTEGER NOT NULL," + columns + "PRIMARY KEY(" + keyNames(table) + "))" +
-                 (table.wide ? "" : " WITHOUT ROWID")},
+                 (isByRowNumber(table, version) ? "" : " WITHOUT ROWID")},
       {name + "_in", "CREATE TRIGGER " + name + "_in AFTER INSERT ON " + name + " BEGIN INSERT INTO tally VALUES('" +
                          name + "',new." + session +
                          ",1,new.crc) ON CONFLICT(name,session) DO UPDATE SET count=count+1,sum=sum+excluded.sum; END"},
@@ -67,16 +82,16 @@ SqlObjects sqlObjects(const Tables& tables, int version) {
        "PRIMARY KEY(name,session)) WITHOUT ROWID"}};
   for (const Table* table : tables)
     if (table->since <= version)
-      for (auto& object : sqlObjects(schema::atVersion(*table, version))) objects.push_back(std::move(object));
+      for (auto& object : sqlObjects(schema::atVersion(*table, version), version)) objects.push_back(std::move(object));
   return objects;
 }
 
-void createTable(Connection& connection, const Table& table) {
-  for (const auto& [name, sql] : sqlObjects(table)) connection.execute(sql);
+void createTable(Connection& connection, const Table& table, int version) {
+  for (const auto& [name, sql] : sqlObjects(table, version)) connection.execute(sql);
 }
 
-/// Rewrites the rows of a table with the added columns.
-void addColumns(Connection& connection, const Table& before, const Table& after) {
+/// Rewrites the rows of a table with the added columns, in the layout of a version.
+void rewrite(Connection& connection, const Table& before, const Table& after, int version) {
   const std::string name = before.name;
   verifyTally(connection, before);
   for (const char* trigger : {"_in", "_out", "_new"}) connection.execute("DROP TRIGGER " + name + trigger);
@@ -84,7 +99,7 @@ void addColumns(Connection& connection, const Table& before, const Table& after)
   Table source = before;
   source.name = name + "_before";
   connection.execute("ALTER TABLE " + name + " RENAME TO " + source.name);
-  createTable(connection, after);
+  createTable(connection, after, version);
   {
     RowReader reader(connection, source, "");
     while (reader.next()) {
@@ -100,7 +115,7 @@ void addColumns(Connection& connection, const Table& before, const Table& after)
 namespace schema {
 
 int latestVersion(const Tables& tables) {
-  int latest = 1;
+  int latest = kPresentEncoding;
   for (const Table* table : tables) {
     latest = std::max(latest, table->since);
     for (const Column& column : table->columns) latest = std::max(latest, column.since);
@@ -133,9 +148,10 @@ void migrate(Connection& connection, const Tables& tables) {
   for (const Table* table : tables) {
     const Table before = atVersion(*table, from), after = atVersion(*table, latest);
     if (table->since > from) {
-      createTable(connection, after);
-    } else if (before.columns.size() < after.columns.size()) {
-      addColumns(connection, before, after);
+      createTable(connection, after, latest);
+    } else if (before.columns.size() < after.columns.size() ||
+               isByRowNumber(before, from) != isByRowNumber(after, latest)) {
+      rewrite(connection, before, after, latest);
     }
   }
   connection.execute("PRAGMA user_version=" + std::to_string(latest));

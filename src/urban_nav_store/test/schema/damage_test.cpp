@@ -20,7 +20,11 @@ using testing::Folder;
 using testing::readFile;
 using testing::writeFile;
 
-constexpr std::size_t kPage = 4096;
+/// Size of the pages of a file, from its header.
+std::size_t pageSize(const std::string& bytes) {
+  return static_cast<std::size_t>(static_cast<unsigned char>(bytes[16])) << 8 |
+         static_cast<std::size_t>(static_cast<unsigned char>(bytes[17]));
+}
 
 class Damage : public ::testing::Test {
  protected:
@@ -32,6 +36,7 @@ class Damage : public ::testing::Test {
     whole = dump(store);
     store.close();
     bytes = readFile(path);
+    page_size = pageSize(bytes);
   }
 
   /// Result of reading a damaged file: all data, or an error that names it.
@@ -61,20 +66,22 @@ class Damage : public ::testing::Test {
   const Folder folder;
   const std::string path = folder.file("s.db");
   std::string bytes, whole;
+  std::size_t page_size = 0;
 };
 
 TEST_F(Damage, OfAnyPageIsNamed) {
-  ASSERT_GT(bytes.size(), 20 * kPage);
-  for (std::size_t page = 0; page < bytes.size() / kPage; ++page) {
+  ASSERT_GT(bytes.size(), 60 * page_size);
+  for (std::size_t page = 0; page < bytes.size() / page_size; ++page) {
     for (const char fill_with : {'\0', '\xff', '\x5a'}) {
       std::string damaged = bytes;
-      damaged.replace(page * kPage, kPage, kPage, fill_with);
+      damaged.replace(page * page_size, page_size, page_size, fill_with);
       writeFile(path, damaged);
       EXPECT_NE(opened(), Outcome::Other) << "page " << page;
       EXPECT_NE(readOnly(), Outcome::Other) << "page " << page;
     }
     std::string exchanged = bytes;
-    exchanged.replace(page * kPage, kPage, bytes.substr((page + 1) % (bytes.size() / kPage) * kPage, kPage));
+    const std::size_t next = (page + 1) % (bytes.size() / page_size);
+    exchanged.replace(page * page_size, page_size, bytes.substr(next * page_size, page_size));
     writeFile(path, exchanged);
     EXPECT_NE(opened(), Outcome::Other) << "page " << page;
     EXPECT_NE(readOnly(), Outcome::Other) << "page " << page;
@@ -86,8 +93,8 @@ TEST_F(Damage, OfAnyByteIsNamed) {
   int same = 0, refused = 0;
   for (int i = 0; i < 400; ++i) {
     // Half of them within the structure of a page.
-    const std::size_t page = random() % (bytes.size() / kPage);
-    const std::size_t at = page * kPage + random() % (i % 2 == 0 ? 100 : kPage);
+    const std::size_t page = random() % (bytes.size() / page_size);
+    const std::size_t at = page * page_size + random() % (i % 2 == 0 ? 100 : page_size);
     std::string damaged = bytes;
     damaged[at] = static_cast<char>(damaged[at] ^ (1U << random() % 8U));
     writeFile(path, damaged);
@@ -108,7 +115,7 @@ TEST_F(Damage, AFileThatIsCutOffIsNamed) {
 
 TEST_F(Damage, ADamagedStoreIsNotWrittenTo) {
   std::string damaged = bytes;
-  damaged.replace(5 * kPage, kPage, kPage, '\xff');
+  damaged.replace(5 * page_size, page_size, page_size, '\xff');
   writeFile(path, damaged);
   EXPECT_NE(catchError([&] { Store(path, Access::Write); }).find("is damaged"), std::string::npos);
   EXPECT_EQ(readFile(path), damaged);

@@ -181,6 +181,25 @@ TEST_F(Migration, AddsTablesAndColumnsAndKeepsAllRows) {
   EXPECT_EQ(properties(connection).size(), 2U) << "no further migration";
 }
 
+TEST_F(Migration, KeepsTheRowsOfTablesWhoseLayoutChanges) {
+  const std::string older = folder.file("older.db");
+  {
+    Connection connection(older, Connection::Mode::Create);
+    schema::create(connection, schema::tables(), 11);
+    connection.execute("ATTACH '" + path + "' AS present");
+    for (const Table* table : schema::tables())
+      connection.execute("INSERT INTO main." + table->name + " SELECT * FROM present." + table->name);
+  }
+  for (const Access access : {Access::Read, Access::Write}) {  // the second one migrates it
+    Store store(older, access);
+    EXPECT_TRUE(dump(store) == before);
+  }
+  Connection migrated(older, Connection::Mode::Read), created(path, Connection::Mode::Read);
+  const char* const by_index = "SELECT count(*) FROM sqlite_master WHERE sql LIKE '%WITHOUT ROWID'";
+  EXPECT_EQ(migrated.integer(by_index), created.integer(by_index));
+  EXPECT_EQ(migrated.integer("SELECT count(*) FROM node WHERE rowid>0"), 12);
+}
+
 TEST_F(Migration, AnOlderFileIsReadAsItIs) {
   Connection connection(path, Connection::Mode::Read);
   const std::vector<PropertyWithUnit> rows = properties(connection);

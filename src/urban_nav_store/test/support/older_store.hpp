@@ -5,7 +5,8 @@
 
 namespace urban_nav_store::testing {
 
-/// Converts a store to an earlier schema. Rows of tables that the schema lacks, or has with fewer columns, are lost.
+/// Converts a store to an earlier schema. Rows of tables that the schema lacks, or has with fewer columns or in
+/// another layout, are lost.
 void makeOlder(const std::string& path, const Folder& folder, int version);
 
 }  // namespace urban_nav_store::testing
