@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "topics/labels/labelled_map.hpp"
 
-#include <cstring>
 #include <memory>
 #include <utility>
 
@@ -51,6 +50,34 @@ urban_nav_core::PlyLayout labelLayout() {
   return layout;
 }
 
+struct StoredLabels {
+  std::int64_t digest = 0;  ///< of the points
+  std::vector<PointLabel> labels;
+};
+
+/// Returns nullopt if the store has none, or those of another version.
+std::optional<StoredLabels> readLabels(urban_nav_store::Store& store, const urban_nav_store::SessionId& first) {
+  const auto state = store.states().get(first, kLabelsState);
+  if (!state) return std::nullopt;
+  StoredLabels stored;
+  std::string bytes;
+  try {
+    urban_nav_core::Archive archive(urban_nav_core::unseal(kLabelsSeal, kLabelsVersion, *state), kLabelsSeal);
+    archive(stored.digest, bytes);
+    archive.finish();
+  } catch (const urban_nav_core::DataError&) {
+    return std::nullopt;
+  }
+  if (bytes.size() % kLabelBytes != 0) return std::nullopt;
+  stored.labels.resize(bytes.size() / kLabelBytes);
+  for (std::size_t i = 0; i < stored.labels.size(); ++i) {
+    const auto byte = [&](std::size_t k) { return static_cast<std::uint8_t>(bytes[kLabelBytes * i + k]); };
+    const bool is_class = byte(0) < scene_labeler::kClassCount;
+    stored.labels[i] = {is_class ? static_cast<SceneClass>(byte(0)) : SceneClass::None, byte(1), byte(2) != 0};
+  }
+  return stored;
+}
+
 }  // namespace
 
 urban_nav_core::PlyLayout labelledMapLayout() {
@@ -65,15 +92,6 @@ void appendPointLabel(std::string& bytes, const PointLabel& label) {
   urban_nav_core::appendLittleEndian(bytes, static_cast<std::uint8_t>(label.label));
   urban_nav_core::appendLittleEndian(bytes, static_cast<float>(label.probability) / 255.0F);
   urban_nav_core::appendLittleEndian(bytes, static_cast<std::uint8_t>(label.is_unsure ? 1 : 0));
-}
-
-void MapPointsDigest::add(const std::vector<laser_mapper::MapPoint>& points) {
-  for (const laser_mapper::MapPoint& point : points)
-    for (const float value : {point.p.x(), point.p.y(), point.p.z()}) {
-      std::uint32_t bits = 0;
-      std::memcpy(&bits, &value, sizeof bits);
-      hash_ = (hash_ ^ bits) * 0x100000001b3U;
-    }
 }
 
 void storeMapLabels(urban_nav_store::Store& store, const urban_nav_store::SessionId& first,
@@ -92,51 +110,21 @@ void storeMapLabels(urban_nav_store::Store& store, const urban_nav_store::Sessio
   store.commit();
 }
 
-std::optional<std::vector<PointLabel>> storedMapLabels(urban_nav_store::Store& store,
-                                                       const urban_nav_store::SessionId& first,
-                                                       const laser_mapper::LaserMap& map) {
-  const auto state = store.states().get(first, kLabelsState);
-  if (!state) return std::nullopt;
-  std::int64_t hash = 0;
-  std::string bytes;
-  try {
-    urban_nav_core::Archive archive(urban_nav_core::unseal(kLabelsSeal, kLabelsVersion, *state), kLabelsSeal);
-    archive(hash, bytes);
-    archive.finish();
-  } catch (const urban_nav_core::DataError&) {  // of another version
-    return std::nullopt;
-  }
-  MapPointsDigest digest;
-  std::size_t points = 0;
-  map.forEachTile([&](const laser_mapper::Tile&, const std::vector<laser_mapper::MapPoint>& tile) {
-    digest.add(tile);
-    points += tile.size();
-  });
-  if (digest.value() != hash || bytes.size() != kLabelBytes * points) return std::nullopt;
-  std::vector<PointLabel> labels(points);
-  for (std::size_t i = 0; i < points; ++i) {
-    const auto byte = [&](std::size_t k) { return static_cast<std::uint8_t>(bytes[kLabelBytes * i + k]); };
-    const bool is_class = byte(0) < scene_labeler::kClassCount;
-    labels[i] = {is_class ? static_cast<SceneClass>(byte(0)) : SceneClass::None, byte(1), byte(2) != 0};
-  }
-  return labels;
-}
-
-std::optional<PointAttributes> labelAttributes(urban_nav_store::Store& store, const urban_nav_store::SessionId& first,
-                                               const laser_mapper::LaserMap& map) {
-  std::optional<std::vector<PointLabel>> stored = storedMapLabels(store, first, map);
+std::optional<PointAttributes> labelAttributes(urban_nav_store::Store& store, const urban_nav_store::SessionId& first) {
+  const std::optional<StoredLabels> stored = readLabels(store, first);
   if (!stored) return std::nullopt;
-  const auto labels = std::make_shared<const std::vector<PointLabel>>(std::move(*stored));
+  const auto labels = std::make_shared<const std::vector<PointLabel>>(stored->labels);
+  const auto labelAt = [labels](std::size_t point) { return point < labels->size() ? (*labels)[point] : PointLabel(); };
   PointAttributes attributes;
+  attributes.digest = stored->digest;
+  attributes.points = labels->size();
   attributes.ply = labelLayout();
   attributes.las = {"label", urban_nav_core::LasAttribute::Type::UChar, "class of scene_labeler"};
-  attributes.append_ply = [labels](std::size_t point, std::string& bytes) {
-    appendPointLabel(bytes, labels->at(point));
+  attributes.append_ply = [labelAt](std::size_t point, std::string& bytes) { appendPointLabel(bytes, labelAt(point)); };
+  attributes.append_las = [labelAt](std::size_t point, std::string& bytes) {
+    bytes += static_cast<char>(labelAt(point).label);
   };
-  attributes.append_las = [labels](std::size_t point, std::string& bytes) {
-    bytes += static_cast<char>(labels->at(point).label);
-  };
-  attributes.las_classification = [labels](std::size_t point) { return lasClassification(labels->at(point).label); };
+  attributes.las_classification = [labelAt](std::size_t point) { return lasClassification(labelAt(point).label); };
   return attributes;
 }
 

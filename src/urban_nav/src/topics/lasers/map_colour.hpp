@@ -28,6 +28,8 @@ class MapColours {
 
   /// Returns the number of images; 0: there are no panoramas within the time of the trajectories.
   std::size_t views() const { return views_; }
+  /// Returns whether colours are computed from images, which takes longer than all else of an export.
+  bool areComputed() const { return colouriser_ != nullptr; }
   /// Sets red, green and blue of the points of a tile that are visible in an image. Returns their number.
   std::size_t colour(const laser_mapper::Tile& tile, std::vector<laser_mapper::MapPoint>& points);
   /// Commits the kept colours. To be called after the last tile.

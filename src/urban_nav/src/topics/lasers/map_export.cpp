@@ -186,9 +186,7 @@ void writeGrid(const std::string& path, const LaserMap& map, const MappedSession
 
 using ColouredTile = std::function<void(const laser_mapper::Tile& tile, const std::vector<MapPoint>& points)>;
 
-void forEachColouredTile(Store& store, const LaserMap& map, const MappedSessions& mapped, double memory_mb,
-                         const ColouredTile& take) {
-  MapColours colours(store, map, mapped.sessions, memory_mb, false);
+void forEachColouredTile(const LaserMap& map, MapColours& colours, const ColouredTile& take) {
   map.forEachTile([&](const laser_mapper::Tile& tile, std::vector<MapPoint> points) {
     colours.colour(tile, points);
     take(tile, points);
@@ -205,33 +203,62 @@ void forEachCurrentTile(Store& store, const std::vector<StoredTrajectory>& map, 
   CurrentRendering rendering(store, map);
   LaserMap laser_map(*mapped.parameters, rendering.store(), mapped.sessions);
   laser_map.load();
-  forEachColouredTile(
-      rendering.store(), laser_map, mapped, memory_mb,
-      [&](const laser_mapper::Tile& tile, const std::vector<MapPoint>& points) { take(laser_map, tile, points); });
+  MapColours colours(rendering.store(), laser_map, mapped.sessions, memory_mb, false);
+  forEachColouredTile(laser_map, colours, [&](const laser_mapper::Tile& tile, const std::vector<MapPoint>& points) {
+    take(laser_map, tile, points);
+  });
 }
 
-/// Writes the formats with coloured points.
-std::size_t writeColoured(const MapFilePaths& paths, Store& store, const LaserMap& map, const MappedSessions& mapped,
-                          const MapCrs* crs, double memory_mb, const AttributeSource& attributes) {
+/// Writes the formats with coloured points. Returns the number of points; nullopt, without any file, if `more` are the
+/// attributes of other points.
+std::optional<std::size_t> writePoints(const MapFilePaths& paths, Store& store, const LaserMap& map,
+                                       const MappedSessions& mapped, const MapCrs* crs, MapColours& colours,
+                                       const std::optional<PointAttributes>& more) {
   const laser_mapper::MapView view = laser_mapper::viewFromAbove(mapped.path, kOrthoMargin, kLongestOrtho);
   std::optional<laser_mapper::MapPicture> ortho;
   if (!paths.ortho.empty()) ortho.emplace(view);
   std::optional<laser_mapper::SurfaceMesher> mesher;
   if (!paths.mesh.empty()) mesher.emplace(mapped.parameters->voxel);
-  PointFiles files(paths, crs, mappedSensors(store, mapped),
-                   attributes ? attributes(store, mapped.sessions.front().id, map) : std::nullopt);
+  PointFiles files(paths, crs, mappedSensors(store, mapped), more);
+  MapPointsDigest digest;
   std::size_t written = 0;
-  forEachColouredTile(store, map, mapped, memory_mb,
-                      [&](const laser_mapper::Tile& tile, const std::vector<MapPoint>& points) {
-                        files.append(points);
-                        if (ortho) ortho->draw(points);
-                        if (mesher) mesher->add(tile, points);
-                        written += points.size();
-                      });
+  forEachColouredTile(map, colours, [&](const laser_mapper::Tile& tile, const std::vector<MapPoint>& points) {
+    if (more) digest.add(points);
+    files.append(points);
+    if (ortho) ortho->draw(points);
+    if (mesher) mesher->add(tile, points);
+    written += points.size();
+  });
+  if (more && (digest.value() != more->digest || written != more->points)) return std::nullopt;
   files.commit();
   if (ortho) writeOrtho(paths.ortho, view, *ortho);
   if (mesher) urban_nav_core::writeAtomically(paths.mesh, printMeshPly(mesher->finish()));
   return written;
+}
+
+/// Returns whether the attributes belong to the points of the map.
+bool areOfMap(const PointAttributes& attributes, const LaserMap& map) {
+  MapPointsDigest digest;
+  std::size_t points = 0;
+  map.forEachTile([&](const laser_mapper::Tile&, const std::vector<MapPoint>& tile) {
+    digest.add(tile);
+    points += tile.size();
+  });
+  return digest.value() == attributes.digest && points == attributes.points;
+}
+
+/// Writes the formats with coloured points and the attributes, if these belong to the map. They mostly do if the
+/// colours are stored: then that is verified while the points are written, since a pass over them takes half of the
+/// time.
+std::size_t writeColoured(const MapFilePaths& paths, Store& store, const LaserMap& map, const MappedSessions& mapped,
+                          const MapCrs* crs, double memory_mb, const AttributeSource& attributes) {
+  MapColours colours(store, map, mapped.sessions, memory_mb, false);
+  std::optional<PointAttributes> more;
+  if (attributes && !(paths.ply + paths.las).empty()) more = attributes(store, mapped.sessions.front().id);
+  if (more && colours.areComputed() && !areOfMap(*more, map)) more.reset();
+  if (more)
+    if (const auto written = writePoints(paths, store, map, mapped, crs, colours, more)) return *written;
+  return *writePoints(paths, store, map, mapped, crs, colours, std::nullopt);
 }
 
 }  // namespace

@@ -27,8 +27,8 @@ struct MapFilePaths {
 
 /// Returns the attributes that another stage adds to the points of a map; nullopt: none. `first`: the first session of
 /// the map.
-using AttributeSource = std::function<std::optional<PointAttributes>(
-    urban_nav_store::Store& store, const urban_nav_store::SessionId& first, const laser_mapper::LaserMap& map)>;
+using AttributeSource = std::function<std::optional<PointAttributes>(urban_nav_store::Store& store,
+                                                                     const urban_nav_store::SessionId& first)>;
 
 /// Result of exportMap().
 struct ExportedMap {
