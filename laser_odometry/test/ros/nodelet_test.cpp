@@ -95,7 +95,8 @@ TEST(LaserOdometryNodelet, FollowsADriveAndReportsFaults) {
   ASSERT_TRUE(LaserGraph::until([&] { return graph.isConnected(); }));
   const Pose T_base_lidar(urban_nav_core::expSo3({0.0, 0.0, 0.5}), {0.3, 0.0, 0.2});
   const BoxWorld world = makeRoom();
-  const SpinningLidar lidar{16, 900, -20.0, 12.0, 0.1, 0.01, T_base_lidar};
+  SpinningLidar lidar;
+  lidar.T_base_lidar = T_base_lidar;
   const auto motion = makeDrive(0.8, 0.2);
 
   graph.show(lidar.scan(world, motion, 0.0, 1));  // before the pose of the LiDAR is known

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_input/recording/recorded_message.hpp"
 
+#include <filesystem>
+
 #include "recording/recording_file.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_input {
 
 void throwDamaged(const std::string& path, const std::exception& found) {
-  throw urban_nav_core::DataError(path, std::string("cannot be read: ") + found.what(),
-                                  "an intact recording (`rosbag reindex` repairs a truncated bag)");
+  const bool is_bag = std::filesystem::path(path).extension() == ".bag";
+  throw urban_nav_core::DataError(
+      path, std::string("cannot be read: ") + found.what(),
+      is_bag ? "an intact recording (`rosbag reindex` repairs a truncated bag)" : "an intact recording");
 }
 
 const Connection& RecordedMessage::connection() const { return file_->storage().connections()[connection_]; }
