@@ -16,8 +16,8 @@ constexpr int kFewestPoints = 200;      // returns required for a registration
 constexpr double kCoveredShare = 0.25;  // share of returns nearer than min_range
 constexpr double kAgreeing = 3.0;       // standard deviations
 constexpr double kLeastAgreeing = 0.5;  // share of the matches
-// Minimum of Registration::covered if directions are free: below it, the map is of another place, and constrains only
-// what all places have in common, such as the height above the ground.
+// Minimum of Registration::covered if directions are free: below it, the map is of another place, and constrains
+// directions only that all places constrain, such as the height above the ground.
 constexpr double kLeastCovered = 1.0 / 3.0;
 
 Status make(Health health, Reason reason, const std::string& sentence) {
