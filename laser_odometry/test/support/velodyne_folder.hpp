@@ -52,13 +52,16 @@ struct VelodyneFolder {
           "one of each for every sweep, " + std::to_string(files.size()));
   }
 
-  /// The laser turns clockwise seen from above, in 0.1 s from backwards to backwards.
+  /// The laser turns clockwise seen from above, in 0.1 s from backwards to backwards. Files hold the rings one after
+  /// the other, each from 0 to 360 deg.
   urban_nav_core::Sweep read(std::size_t i) const {
     const std::string bytes = urban_nav_core::readTextFile(files[i]);
     urban_nav_core::Sweep sweep;
     sweep.reference = times[i];
     sweep.duration = 0.1;
     sweep.times = urban_nav_core::Sweep::Times::Measured;
+    double before = 0.0;
+    std::uint16_t ring = 0;
     for (std::size_t at = 0; at + 16 <= bytes.size(); at += 16) {
       float values[4];
       std::memcpy(values, bytes.data() + at, 16);
@@ -67,7 +70,12 @@ struct VelodyneFolder {
       urban_nav_core::Beam beam;
       beam.range = p.norm();
       beam.direction = p / beam.range;
-      beam.stamp = sweep.reference - std::llround(5e7 * std::atan2(p.y(), p.x()) / M_PI);
+      const double azimuth = static_cast<double>(std::atan2(p.y(), p.x()));
+      const double positive = azimuth < 0.0 ? azimuth + 2.0 * M_PI : azimuth;
+      if (positive < before - M_PI) ++ring;
+      before = positive;
+      beam.ring = ring;
+      beam.stamp = sweep.reference - std::llround(5e7 * azimuth / M_PI);
       sweep.beams.push_back(beam);
     }
     return sweep;
