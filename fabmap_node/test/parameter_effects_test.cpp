@@ -22,9 +22,12 @@ using Experiment = urban_nav_core::testing::ParameterExperiment<Parameters>;
 constexpr StampNs kStreetStep = 1'000'000'000;
 constexpr double kStreetMetresPerStep = 1.0;
 
-/// Image of a place on a day: the last quarter of the grey levels is clutter specific to the day.
+/// Image of a place on a day. A share of the grey levels is clutter specific to the day: a quarter at the first place,
+/// more further along the street, so that some places are recognised with certainty and others not.
 cv::Mat drawStreet(unsigned place, unsigned camera, unsigned day) {
-  return 0.75 * testing::drawSquares(place, camera) + 0.25 * testing::drawSquares(1000 + 100 * day + place, camera);
+  const double clutter = 0.25 + 0.015 * place;
+  return (1.0 - clutter) * testing::drawSquares(place, camera) +
+         clutter * testing::drawSquares(1000 + 100 * day + place, camera);
 }
 
 /// Beliefs and closures of a robot that drives along a street of 24 places on two days, on the second day twice past

@@ -22,7 +22,7 @@ namespace {
 
 // 1: without sequences. 1 and 2: panoramas calibrated for another comparison. 3: with OpenCV's features, which are no
 // longer supported.
-constexpr std::uint32_t kOldestVersion = 1, kOpencvVersion = 3, kModelVersion = 4;
+constexpr std::uint32_t kOldestVersion = 1, kOpencvVersion = 3, kModelVersion = 5;
 constexpr char kModelName[] = "places model";
 constexpr std::size_t kMostWords = 1'000'000;
 
@@ -161,7 +161,7 @@ PlaceModel parseModel(std::string_view bytes, const std::string& name) {
     throw DataError(name, "a model of OpenCV's features (sift or orb)",
                     "a model of upright features, as places train writes it: train it again");
   PlaceModel model = parseVersion(state.content, state.version, name);
-  if (state.version < kModelVersion) useSuppliedPanoramaCalibrations(model);
+  if (state.version < kModelVersion) useSuppliedCalibrations(model);
   return model;
 }
 

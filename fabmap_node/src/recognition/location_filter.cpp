@@ -2,7 +2,6 @@
 #include "fabmap_node/recognition/location_filter.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace fabmap_node {
@@ -15,13 +14,24 @@ constexpr double kPlacesElsewhere = 10.0;  // number of places that share the pr
                                            // compared
 constexpr double kLargestLogRatio = 6.0;   // limit for one observation: that of a calibration
 
-constexpr std::size_t kSequenceLength = 10;
-constexpr double kOnPath = 1.0;  // places, tolerance of the path at constant speed
-constexpr std::array<double, 14> kSpeeds = {0.5,  0.67,  0.8,  1.0,  1.25,  1.5,  2.0,  // places per observation
-                                            -0.5, -0.67, -0.8, -1.0, -1.25, -1.5, -2.0};
+constexpr std::size_t kSequenceLength = 20;  // as many similar consecutive observations count as one in a calibration
+constexpr double kOnPath = 1.0;              // places, tolerance of the path at constant speed
+// In tenths of a place per observation: paths of adjacent speeds are at most twice the tolerance apart at their ends.
+constexpr int kSlowest = 5, kFastest = 20;
+constexpr double kSpeedStep = 0.1;
+static_assert(kSpeedStep * kSequenceLength <= 2.0 * kOnPath);
 
 bool isAround(std::size_t session_a, std::size_t a, std::size_t session_b, std::size_t b) {
   return session_a == session_b && (a > b ? a - b : b - a) <= kPlacesAround;
+}
+
+/// Returns the largest positive margin of the places within kOnPath of `expected`; zero without one.
+double largestMarginNear(const std::vector<LocationHypothesis>& observation, std::size_t session, double expected) {
+  double largest = 0.0;
+  for (const LocationHypothesis& one : observation)
+    if (one.session == session && std::abs(static_cast<double>(one.place) - expected) <= kOnPath)
+      largest = std::max(largest, one.margin);
+  return largest;
 }
 
 }  // namespace
@@ -38,24 +48,23 @@ double LocationFilter::priorLogOdds(std::size_t session, std::size_t place) cons
   return std::log(here * kPlacesElsewhere / at_new);
 }
 
-double LocationFilter::motionConsistency(std::size_t session, std::size_t place) const {
-  std::size_t most = 0;
-  for (const double speed : kSpeeds) {
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < recent_.size(); ++k) {
-      if (recent_[k].session != session) continue;
-      const double expected = static_cast<double>(place) - speed * static_cast<double>(k + 1);
-      count += std::abs(static_cast<double>(recent_[k].place) - expected) <= kOnPath ? 1u : 0u;
+double LocationFilter::pathMargin(std::size_t session, std::size_t place) const {
+  double largest = 0.0;
+  for (int tenths = kSlowest; tenths <= kFastest; ++tenths)
+    for (const double speed : {kSpeedStep * tenths, -kSpeedStep * tenths}) {
+      double sum = 0.0, expected = static_cast<double>(place);
+      for (const std::vector<LocationHypothesis>& observation : recent_) {
+        expected -= speed;
+        sum += largestMarginNear(observation, session, expected);
+      }
+      largest = std::max(largest, sum);
     }
-    most = std::max(most, count);
-  }
-  return static_cast<double>(most) / static_cast<double>(kSequenceLength);
+  return largest / static_cast<double>(kSequenceLength);
 }
 
 void LocationFilter::update(const std::vector<LocationHypothesis>& hypotheses) {
   if (hypotheses.empty()) return;
-  const LocationHypothesis& likeliest = hypotheses[likeliestLocation(*this, hypotheses)];
-  recent_.insert(recent_.begin(), {likeliest.session, likeliest.place, 1.0});
+  recent_.push_front(hypotheses);
   if (recent_.size() > kSequenceLength) recent_.pop_back();
   std::vector<Location> ranked;
   for (const LocationHypothesis& hypothesis : hypotheses) {

@@ -124,14 +124,17 @@ PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Ca
   double other_likelihood = -std::numeric_limits<double>::infinity(), other_share = 0.0;
   for (const Candidate& candidate : candidates) {
     if (!isElsewhere(one.place, candidate.place)) continue;
+    match.has_elsewhere = true;
     if (which == 0 && showSamePlace(one, candidate)) continue;
     other_likelihood = std::max(other_likelihood, candidate.log_likelihood);
     other_share = std::max(other_share, candidate.look.share);
   }
   const double words = static_cast<double>(std::max<std::size_t>(1, query.words.size()));
   match.evidence.look = std::sqrt(one.look.share);
-  match.evidence.look_margin = match.evidence.look - std::sqrt(other_share);
-  match.evidence.word_margin = std::isfinite(other_likelihood) ? (one.log_likelihood - other_likelihood) / words : 0.0;
+  const bool has_others = std::isfinite(other_likelihood);
+  if (!has_others) other_share = kSamePlaceShare * one.look.share;
+  if (match.has_elsewhere) match.evidence.look_margin = match.evidence.look - std::sqrt(other_share);
+  if (has_others) match.evidence.word_margin = (one.log_likelihood - other_likelihood) / words;
   match.log_likelihood_new = std::isfinite(log_likelihood_new) ? log_likelihood_new : one.log_likelihood;
   match.evidence.word_ratio = (match.log_likelihood - match.log_likelihood_new) / words;
   return match;

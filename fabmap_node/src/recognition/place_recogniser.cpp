@@ -66,11 +66,11 @@ void PlaceRecogniser::judge(const std::vector<PlaceMatch>& matches, int cameras,
   if (!options_.sequence || !sequence) return;
   std::vector<LocationHypothesis> hypotheses;
   for (const PlaceMatch& match : matches)
-    hypotheses.push_back({match.session, match.place, alone.logit(match.evidence)});
+    hypotheses.push_back({match.session, match.place, alone.logit(match.evidence), match.evidence.look_margin});
   const PlaceMatch& likeliest = matches[likeliestLocation(filter_, hypotheses)];
   if (matches.front().session != session_ && likeliest.session != session_) {
     result.match = likeliest;
-    result.match->evidence.sequence = filter_.motionConsistency(likeliest.session, likeliest.place);
+    result.match->evidence.sequence = filter_.pathMargin(likeliest.session, likeliest.place);
     result.probability = sequence->probability(result.match->evidence);
   }
   filter_before_ = filter_;

@@ -21,7 +21,7 @@ struct SituationSamples {
   std::vector<Situation> situations;
 
   void add(const LabelledMatch& match, const PlaceEvidence& evidence, const SituationRun& run) {
-    if (!match.is_same_place) return;
+    if (!match.is_same_place || !match.match.has_elsewhere) return;
     samples.push_back({evidence, *match.is_same_place, 1.0, run.site});
     situations.push_back(run.situation);
   }
@@ -52,10 +52,11 @@ std::vector<CalibrationSample> samplesInSequence(const std::vector<SituationRun>
       if (matches.empty()) continue;
       std::vector<LocationHypothesis> hypotheses;
       for (const LabelledMatch& one : matches)
-        hypotheses.push_back({one.match.session, one.match.place, alone.logit(one.match.evidence)});
+        hypotheses.push_back(
+            {one.match.session, one.match.place, alone.logit(one.match.evidence), one.match.evidence.look_margin});
       const LabelledMatch& likeliest = matches[likeliestLocation(filter, hypotheses)];
       PlaceEvidence evidence = likeliest.match.evidence;
-      evidence.sequence = filter.motionConsistency(likeliest.match.session, likeliest.match.place);
+      evidence.sequence = filter.pathMargin(likeliest.match.session, likeliest.match.place);
       samples.add(likeliest, evidence, each);
       filter.update(hypotheses);
     }

@@ -45,10 +45,12 @@ struct KindCalibration {
 
 /// Situation of a robot, used to weight calibration runs.
 enum class Situation {
-  SameDay,    ///< places of its own drive
-  OtherDay,   ///< places of another day
-  Elsewhere,  ///< part of the site that is not in the map
-  Stranger,   ///< site that is not in the map
+  SameDay,             ///< places of its own drive
+  OtherDay,            ///< places of another day
+  OtherDayAmongSites,  ///< places of another day and of all other sites
+  Elsewhere,           ///< part of the site that is not in the map
+  Stranger,            ///< site that is not in the map, which holds all other sites
+  SimilarSite,         ///< site that is not in the map, which holds the other site that resembles it most
 };
 
 struct SituationRun {
@@ -63,8 +65,9 @@ struct CalibrationRuns {
   std::vector<SituationRun> sequence;  ///< observations in order; the most probable place of LocationFilter is used
 };
 
-/// Fits both calibrations, each with the prior of choosePrior(); that of sequences has the motion consistency as
-/// further evidence. Situations have the same weight among the samples of one kind, for any number of runs.
+/// Fits both calibrations, each with the prior of choosePrior(); that of sequences has LocationFilter::pathMargin() as
+/// further evidence. Situations have the same weight among the samples of one kind, for any number of runs. Matches in
+/// a map without places elsewhere, whose margins are not known, are no samples.
 KindCalibration fitRuns(const CalibrationRuns& runs);
 
 }  // namespace fabmap_node

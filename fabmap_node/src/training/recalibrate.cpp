@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "fabmap_node/recognition/compact_look.hpp"
 #include "training/matched_run.hpp"
@@ -54,6 +55,17 @@ LocatedPlaces describeDay(const LocatedDay& day, std::size_t number, bool first_
 const LabelPlace kAlwaysWrong = [](std::size_t, std::size_t) { return std::optional<bool>(false); };
 const AdmitPlace kEveryPlace = [](std::size_t, std::size_t) { return true; };
 
+/// Returns the mean agreement of the first matches that have a place elsewhere; zero without any.
+double meanAgreement(const MatchedRun& run) {
+  double sum = 0.0, count = 0.0;
+  for (const std::vector<LabelledMatch>& matches : run) {
+    if (matches.empty() || !matches.front().match.has_elsewhere) continue;
+    sum += matches.front().match.evidence.look;
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
 /// Calibration runs for one kind of observation.
 class SiteRuns {
  public:
@@ -63,8 +75,10 @@ class SiteRuns {
         panoramas_(panoramas),
         options_(options) {}
 
-  /// Adds runs of the queries of one day against the map of another day of the site, or of the same one.
-  void addDays(const LocatedPlaces& map, const LocatedPlaces& queries, std::size_t site, bool is_same_day) {
+  /// Adds runs of the queries of one day against the map of another day of the site, or of the same one. Between days,
+  /// also with all other sites in the map.
+  void addDays(const LocatedPlaces& map, const LocatedPlaces& queries, const std::vector<PlaceSite>& sites,
+               std::size_t site, bool is_same_day) {
     const auto distance = [&](std::size_t query, std::size_t place) {
       return (queries.positions[query] - map.positions[place]).norm();
     };
@@ -87,8 +101,7 @@ class SiteRuns {
     for (const DescribedPlace& place : map.places) matcher.add(place);
     const SituationRun run{matchRun(matcher, queries.places, isOtherPicture, label),
                            is_same_day ? Situation::SameDay : Situation::OtherDay, site};
-    // Single images are compared with neighbours only within a session: between days they may show different content.
-    if (panoramas_ || is_same_day) runs_.alone.push_back(run);
+    runs_.alone.push_back(run);
     std::vector<SituationRun> away;
     for (MatchedRun& each : runsElsewhere(matcher, queries.places, isNear, kEveryPlace))
       away.push_back({std::move(each), Situation::Elsewhere, site});
@@ -96,26 +109,46 @@ class SiteRuns {
     if (is_same_day) return;  // sequences are used only between sessions
     runs_.sequence.push_back(run);
     runs_.sequence.insert(runs_.sequence.end(), away.begin(), away.end());
+    addOtherSites(sites, site, matcher);
+    const LabelPlace label_among_sites = [&](std::size_t query, std::size_t place) {
+      return place < map.places.size() ? label(query, place) : std::optional<bool>(false);
+    };
+    addToBoth({matchRun(matcher, queries.places, kEveryPlace, label_among_sites), Situation::OtherDayAmongSites, site});
   }
 
-  /// Adds runs of all days of a site against the map of all other sites.
-  void addOtherSites(const std::vector<PlaceSite>& sites, std::size_t unmapped_site) {
-    PlaceMatcher matcher(table_, sampled_, options_);
-    for (std::size_t s = 0; s < sites.size(); ++s)
-      if (s != unmapped_site)
-        for (const LocatedPlaces& day : sites[s])
-          for (const DescribedPlace& place : day.places) matcher.add(place);
-    if (matcher.size() == 0) return;
-    for (const LocatedPlaces& day : sites[unmapped_site]) {
-      runs_.alone.push_back(
-          {matchRun(matcher, day.places, kEveryPlace, kAlwaysWrong), Situation::Stranger, unmapped_site});
-      runs_.sequence.push_back(runs_.alone.back());
+  /// Adds runs of all days of a site against the map of all other sites, and of its first day against the first day of
+  /// the other site that resembles it most.
+  void addUnmapped(const std::vector<PlaceSite>& sites, std::size_t unmapped_site) {
+    PlaceMatcher all(table_, sampled_, options_);
+    addOtherSites(sites, unmapped_site, all);
+    if (all.size() == 0 || sites[unmapped_site].empty()) return;
+    for (const LocatedPlaces& day : sites[unmapped_site])
+      addToBoth({matchRun(all, day.places, kEveryPlace, kAlwaysWrong), Situation::Stranger, unmapped_site});
+    MatchedRun most_similar;
+    for (std::size_t s = 0; s < sites.size(); ++s) {
+      if (s == unmapped_site || sites[s].empty()) continue;
+      PlaceMatcher one(table_, sampled_, options_);
+      for (const DescribedPlace& place : sites[s].front().places) one.add(place);
+      MatchedRun run = matchRun(one, sites[unmapped_site].front().places, kEveryPlace, kAlwaysWrong);
+      if (meanAgreement(run) > meanAgreement(most_similar)) most_similar = std::move(run);
     }
+    addToBoth({std::move(most_similar), Situation::SimilarSite, unmapped_site});
   }
 
   const CalibrationRuns& runs() const { return runs_; }
 
  private:
+  void addToBoth(const SituationRun& run) {
+    runs_.alone.push_back(run);
+    runs_.sequence.push_back(run);
+  }
+  static void addOtherSites(const std::vector<PlaceSite>& sites, std::size_t site, PlaceMatcher& matcher) {
+    for (std::size_t s = 0; s < sites.size(); ++s)
+      if (s != site)
+        for (const LocatedPlaces& day : sites[s])
+          for (const DescribedPlace& place : day.places) matcher.add(place);
+  }
+
   const LikelihoodTable table_;
   const std::vector<WordSet>& sampled_;
   const bool panoramas_;
@@ -129,8 +162,8 @@ KindCalibration fitKind(const PlaceModel& model, const std::vector<PlaceSite>& s
   for (std::size_t s = 0; s < sites.size(); ++s) {
     for (std::size_t m = 0; m < sites[s].size(); ++m)
       for (std::size_t q = m == 0 ? 0 : m + 1; q < sites[s].size(); ++q)
-        runs.addDays(sites[s][m], sites[s][q], s, m == q);
-    runs.addOtherSites(sites, s);
+        runs.addDays(sites[s][m], sites[s][q], sites, s, m == q);
+    runs.addUnmapped(sites, s);
   }
   KindCalibration fitted = fitRuns(runs.runs());
   if (fitted.right == 0 || fitted.wrong == 0)

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 namespace fabmap_node {
 namespace {
 
@@ -16,7 +19,7 @@ LocationFilter filterAfter(const std::vector<std::size_t>& places, double log_ra
 TEST(LocationFilter, IsUniformBeforeTheFirstObservation) {
   const LocationFilter filter;
   EXPECT_EQ(filter.priorLogOdds(0, 5), 0.0);
-  EXPECT_EQ(filter.motionConsistency(0, 5), 0.0);
+  EXPECT_EQ(filter.pathMargin(0, 5), 0.0);
   EXPECT_EQ(filter.probabilityNew(), 0.5);
 }
 
@@ -44,16 +47,39 @@ TEST(LocationFilter, ProbabilitiesStayWithinTheirLimits) {
   }
 }
 
-TEST(LocationFilter, OnePathDrivenAgainIsConsistentInEitherDirection) {
-  EXPECT_EQ(filterAfter({10, 11, 12, 13, 14, 15, 16, 17, 18, 19}, 0.0).motionConsistency(0, 20), 1.0);
-  EXPECT_EQ(filterAfter({39, 37, 35, 33, 31, 29, 27, 25, 23, 21}, 0.0).motionConsistency(0, 19), 1.0);
-  EXPECT_EQ(filterAfter({10, 11, 12, 13, 14}, 0.0).motionConsistency(0, 15), 0.5);
-  EXPECT_EQ(filterAfter({10, 11, 12, 13, 14, 15}, 0.0).motionConsistency(1, 16), 0.0);
+/// Filter after observations that each show one place of session 0 with this margin.
+LocationFilter filterWithMargin(const std::vector<std::size_t>& places, double margin) {
+  LocationFilter filter;
+  for (const std::size_t place : places) filter.update({{0, place, 0.0, margin}});
+  return filter;
 }
 
-TEST(LocationFilter, PlacesThatStayOrJumpAreNot) {
-  EXPECT_LT(filterAfter(std::vector<std::size_t>(10, 44), 0.0).motionConsistency(0, 44), 0.4);
-  EXPECT_LT(filterAfter({3, 90, 17, 55, 130, 8, 71, 29, 102, 46}, 0.0).motionConsistency(0, 60), 0.4);
+/// Twenty places from `first` on, `step` apart.
+std::vector<std::size_t> twentyPlaces(std::size_t first, double step) {
+  std::vector<std::size_t> places;
+  for (int k = 0; k < 20; ++k)
+    places.push_back(static_cast<std::size_t>(std::lround(static_cast<double>(first) + step * k)));
+  return places;
+}
+
+TEST(LocationFilter, OnePathDrivenAgainHasTheMarginsOfItsPlacesInEitherDirection) {
+  EXPECT_NEAR(filterWithMargin(twentyPlaces(10, 1.0), 0.25).pathMargin(0, 30), 0.25, 1e-12);
+  EXPECT_NEAR(filterWithMargin(twentyPlaces(60, -2.0), 0.25).pathMargin(0, 20), 0.25, 1e-12);
+  EXPECT_NEAR(filterWithMargin(twentyPlaces(10, 0.7), 0.25).pathMargin(0, 24), 0.25, 1e-12);
+  EXPECT_NEAR(filterWithMargin({10, 11, 12, 13, 14}, 0.24).pathMargin(0, 15), 0.06, 1e-12);
+  EXPECT_EQ(filterWithMargin({10, 11, 12, 13, 14, 15}, 0.25).pathMargin(1, 16), 0.0);
+}
+
+TEST(LocationFilter, PlacesThatStayOrJumpAreNotOnAPath) {
+  EXPECT_LT(filterWithMargin(std::vector<std::size_t>(20, 44), 0.25).pathMargin(0, 44), 0.05);
+  EXPECT_LT(filterWithMargin({3, 90, 17, 55, 130, 8, 71, 29, 102, 46}, 0.25).pathMargin(0, 60), 0.05);
+}
+
+TEST(LocationFilter, APathThroughPlacesThatResembleOthersHasNoMargin) {
+  EXPECT_EQ(filterWithMargin(twentyPlaces(10, 1.0), -0.1).pathMargin(0, 30), 0.0);
+  LocationFilter filter;  // the place on the path is not the first hypothesis
+  for (std::size_t k = 0; k < 20; ++k) filter.update({{0, 200 - 7 * k, 1.0, 0.125}, {0, 10 + k, 0.0, 0.5}});
+  EXPECT_NEAR(filter.pathMargin(0, 30), 0.5, 1e-12);
 }
 
 TEST(LikeliestLocation, PriorDecidesBetweenSimilarPlaces) {

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "fabmap_node/recognition/compact_look.hpp"
+#include "support/synthetic_places.hpp"
 #include "urban_nav_core/testing/dice.hpp"
 
 namespace fabmap_node {
@@ -22,6 +25,13 @@ WordSet drawWordsOfPlace(bool low, urban_nav_core::testing::Dice& dice) {
   return set;
 }
 
+ChowLiuTree learnTree() {
+  urban_nav_core::testing::Dice dice(5);
+  WordSets drawn{kWords, {}};
+  for (int i = 0; i < 200; ++i) drawn.observations.push_back(drawWordsOfPlace(i % 2 == 0, dice));
+  return learnChowLiuTree(drawn);
+}
+
 /// Map in which one moment of the first session has more places than a search ranks at first, all of them with a higher
 /// likelihood than the places of the second session. Words only.
 class LargeMap {
@@ -36,12 +46,6 @@ class LargeMap {
   }
 
  private:
-  static ChowLiuTree learnTree() {
-    urban_nav_core::testing::Dice dice(5);
-    WordSets drawn{kWords, {}};
-    for (int i = 0; i < 200; ++i) drawn.observations.push_back(drawWordsOfPlace(i % 2 == 0, dice));
-    return learnChowLiuTree(drawn);
-  }
   static MatcherOptions wordsOnly() {
     MatcherOptions options;
     options.second_looks = 0;
@@ -83,6 +87,43 @@ TEST(PlaceMatcher, WhatIsFoundDoesNotDependOnTheUnlikelyRestOfTheMap) {
       i += 50;
     }
   }
+}
+
+DescribedPlace describePlace(std::size_t session, urban_nav_core::StampNs seconds, std::uint32_t place,
+                             std::uint32_t noise) {
+  return {session,
+          seconds * 1'000'000'000,
+          {static_cast<Word>(place % kWords)},
+          packLook(selectFeatures(testing::syntheticPlace(place, noise), 540))};
+}
+
+TEST(PlaceMatcher, MarginsNeedAPlaceElsewhere) {
+  const LikelihoodTable table(learnTree(), {0.39, 0.05}, Dependence::ChowLiu);
+  PlaceMatcher matcher(table, {}, {});
+  const DescribedPlace query = describePlace(5, 0, 1, 1);
+  const auto firstMatch = [&] { return matcher.match(query, [](std::size_t) { return true; }).value(); };
+
+  matcher.add(describePlace(0, 0, 1, 0));
+  matcher.add(describePlace(0, 5, 2, 0));  // not 10 s away
+  PlaceMatch match = firstMatch();
+  ASSERT_EQ(match.place, 0u);
+  EXPECT_FALSE(match.has_elsewhere);
+  EXPECT_GT(match.agreeing, 20);
+  EXPECT_EQ(match.evidence.look_margin, 0.0);
+  EXPECT_EQ(match.evidence.word_margin, 0.0);
+
+  matcher.add(describePlace(1, 0, 1, 0));  // the same place in another session is not one elsewhere
+  match = firstMatch();
+  EXPECT_TRUE(match.has_elsewhere);
+  EXPECT_EQ(match.evidence.word_margin, 0.0);
+  const double to_itself = match.evidence.look_margin;
+  EXPECT_NEAR(to_itself, (1.0 - std::sqrt(0.5)) * match.evidence.look, 1e-12);
+
+  matcher.add(describePlace(0, 60, 3, 0));
+  match = firstMatch();
+  EXPECT_TRUE(match.has_elsewhere);
+  EXPECT_GT(match.evidence.look_margin, to_itself);
+  EXPECT_GT(match.evidence.word_margin, 0.0);
 }
 
 }  // namespace

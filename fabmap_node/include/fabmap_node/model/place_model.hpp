@@ -30,9 +30,9 @@ struct PlaceModel {
 
 /// Returns the bytes of a model: versioned, with a checksum, identical on every machine.
 std::string printModel(const PlaceModel& model);
-/// Parses the output of printModel(). Models of earlier versions, whose panoramas are calibrated for descriptors that
-/// were compared differently, take useSuppliedPanoramaCalibrations(). Throws DataError with `name` if the bytes are
-/// truncated, damaged, of a later version, of a model with OpenCV's features, or inconsistent.
+/// Parses the output of printModel(). Models of earlier versions, whose calibrations are for other evidence, take
+/// useSuppliedCalibrations(). Throws DataError with `name` if the bytes are truncated, damaged, of a later version, of
+/// a model with OpenCV's features, or inconsistent.
 PlaceModel parseModel(std::string_view bytes, const std::string& name);
 /// Returns the bytes of a model without version and checksum, for tests with damaged content.
 std::string printModelContent(const PlaceModel& model);
@@ -43,10 +43,9 @@ PlaceModel readModel(const std::string& path);
 /// Returns the bytes of the built-in model, which are static.
 std::string_view defaultModelBytes();
 PlaceModel defaultModel();
-/// Sets the calibrations of panoramas to those supplied with the program, fitted by
-/// src/urban_nav/bench/default_places_model.sh. The evidence does not depend on vocabulary and map, so that they hold
-/// for every model.
-void useSuppliedPanoramaCalibrations(PlaceModel& model);
+/// Sets the calibrations to those supplied with the program, fitted by src/urban_nav/bench/default_places_model.sh. The
+/// evidence does not depend on vocabulary and map, so that they hold for every model.
+void useSuppliedCalibrations(PlaceModel& model);
 /// Returns the bytes of the model of this hash, if it is the built-in one or was so in an earlier version: stores refer
 /// to it by its hash only (store/model_rows.hpp), so that a model that was once built in stays in the program.
 std::optional<std::string_view> suppliedModel(const std::string& hash);

@@ -13,8 +13,8 @@ struct PlaceEvidence {
   double word_ratio = 0.0;   ///< log likelihood ratio to a new place, per word, nats
   double word_margin = 0.0;  ///< log likelihood ratio to the likeliest place elsewhere, per word, nats
   double look = 0.0;         ///< square root of LookAgreement::share; 0 without descriptor matching
-  double look_margin = 0.0;  ///< `look` minus that of the best place elsewhere
-  double sequence = 0.0;     ///< LocationFilter::motionConsistency(); 0 without a sequence
+  double look_margin = 0.0;  ///< `look` minus that of the best place elsewhere; 0 without one
+  double sequence = 0.0;     ///< LocationFilter::pathMargin(); 0 without a sequence
 
   static constexpr std::size_t kSize = 5;
   std::array<double, kSize> values() const { return {word_ratio, word_margin, look, look_margin, sequence}; }

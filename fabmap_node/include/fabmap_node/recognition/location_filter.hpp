@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <vector>
 
 namespace fabmap_node {
@@ -10,6 +11,7 @@ namespace fabmap_node {
 struct LocationHypothesis {
   std::size_t session = 0, place = 0;  ///< places of a session are numbered along the path
   double log_ratio = 0.0;              ///< log likelihood ratio to a new place, nats
+  double margin = 0.0;                 ///< of its agreement to that of places elsewhere
 };
 
 /// Location prior from the topology (Newman et al. 2009, section 3.2): after an observation at a place, the next one is
@@ -20,10 +22,12 @@ class LocationFilter {
   /// Returns the log odds of a place relative to NEW before its observation, minus those without a prior; nats, within
   /// -3 ... 5.3. Zero for every place until the first update.
   double priorLogOdds(std::size_t session, std::size_t place) const;
-  /// Returns the share, 0 ... 1, of the last ten observations whose likeliest places lie on one path at constant speed
-  /// that ends at `place`: half to twice the speed of the first visit, in either direction. On a path that is driven
-  /// again, places advance with the observations; places with a similar appearance stay constant, or jump.
-  double motionConsistency(std::size_t session, std::size_t place) const;
+  /// Returns the mean margin of the last twenty observations at the places of one path at constant speed that ends
+  /// at `place`, the path for which it is largest: half to twice the speed of the first visit, in either direction. An
+  /// observation counts zero if no place within one of the path was compared, if its margin is negative, or if it is
+  /// missing. On a path that is driven again, places advance with the observations, each clearer than all places
+  /// elsewhere; places with a similar appearance stay constant, jump, or resemble others as much.
+  double pathMargin(std::size_t session, std::size_t place) const;
   /// Applies the evidence of one observation. Of hypotheses around one place, only the likeliest is used.
   void update(const std::vector<LocationHypothesis>& hypotheses);
 
@@ -35,8 +39,8 @@ class LocationFilter {
     std::size_t session = 0, place = 0;
     double probability = 0.0;
   };
-  std::vector<Location> recent_;     // likeliest places, most recent first
-  std::vector<Location> locations_;  // at most one around each place; with p_new_ they sum to 1
+  std::deque<std::vector<LocationHypothesis>> recent_;  // by observation, most recent first
+  std::vector<Location> locations_;                     // at most one around each place; with p_new_ they sum to 1
   double p_new_ = 0.5;
 };
 

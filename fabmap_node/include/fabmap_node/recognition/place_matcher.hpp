@@ -40,6 +40,7 @@ struct PlaceMatch {
   double log_likelihood = 0.0;      ///< at this place, nats
   double log_likelihood_new = 0.0;  ///< at a new place, nats
   int agreeing = 0;                 ///< matched descriptors that are geometrically consistent
+  bool has_elsewhere = false;       ///< a place elsewhere was compared; without one, both margins are zero
   PlaceEvidence evidence;
 };
 
@@ -73,7 +74,8 @@ class PlaceMatcher {
   const DescribedPlace& place(std::size_t i) const { return places_[i]; }
 
   /// Returns the compared places among those admitted by `isCandidate`, most probable first; empty if there are none.
-  /// Margins of the first one exclude places elsewhere that show the same place; those of the others do not.
+  /// Margins of the first one exclude places elsewhere that show the same place; if all do, the margin is that to the
+  /// best agreement that would not. Those of the others do not exclude them.
   std::vector<PlaceMatch> matches(const DescribedPlace& query,
                                   const std::function<bool(std::size_t)>& isCandidate) const;
   /// Returns the first of matches().

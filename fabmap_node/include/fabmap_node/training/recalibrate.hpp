@@ -39,8 +39,9 @@ struct RecalibrationReport {
 /// and weather between days and similar places at other sites, unlike the drives of `places train`.
 ///
 /// Each observation is compared with the places of its own day (the first of each site), of each earlier day at its
-/// site, of both without those nearer than 10 m, and of all other sites. A match within 7.5 m is correct, beyond 10 m
-/// wrong. These situations have equal weights, as do correct and wrong matches; sequences, which are used only between
+/// site, of that day and all other sites, of its site without the places nearer than 10 m, of all other sites, and of
+/// the other site that resembles its own most (first days only). A match within 7.5 m is correct, beyond 10 m wrong.
+/// These situations have equal weights, as do correct and wrong matches; sequences, which are used only between
 /// sessions, are calibrated without the first situation. choosePrior() selects the prior of each calibration. Panoramas
 /// also calibrate single images, with their first cameras; between days, those are correct within 3 m in the same
 /// direction. Throws UserError if no site has two days, or if there are no samples of one kind.

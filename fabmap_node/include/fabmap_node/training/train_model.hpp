@@ -27,7 +27,6 @@ struct TrainingOptions {
 /// Sizes of a training run.
 struct TrainingReport {
   std::size_t observations = 0, stationary = 0, descriptors = 0;
-  std::size_t right = 0, wrong = 0;  ///< numbers of calibration samples of each kind
 };
 /// A trained place model with the report of its training.
 struct TrainedModel {
@@ -35,13 +34,10 @@ struct TrainedModel {
   TrainingReport report;
 };
 
-/// Trains vocabulary, Chow-Liu tree, sampled places and calibration. Observations of a stationary camera are used once.
-///
-/// Calibration: each observation is compared with the others of its drive (neighbours are the same place) and with
-/// those of another drive (never the same place), with trees and sampled places of the remaining drives. Fewer than
-/// three drives are divided into parts that serve as drives. Places further along the same street are samples of
-/// different places. Without drives of single images, the first camera of panoramas calibrates single images.
-/// `progress`: name of the step, share done. Throws UserError if there are too few data.
+/// Trains vocabulary, Chow-Liu tree and sampled places. Observations of a stationary camera are used once. The
+/// calibrations are those of useSuppliedCalibrations(): which images of drives without positions show one place is not
+/// known, and neighbours may be centimetres or tens of metres apart; recalibrate() fits others. `progress`: name of
+/// the step, share done. Throws UserError if there are too few data.
 TrainedModel trainModel(std::vector<TrainingDrive> drives, const TrainingOptions& options,
                         const std::function<void(const std::string& step, double share)>& progress = {});
 

@@ -49,10 +49,11 @@ Json calibrationSummary(const fabmap_node::PlaceCalibration& calibration) {
                        {"ceiling", calibration.ceiling}});
 }
 
-/// Returns the calibrations of panoramas.
-Json panoramaSummary(const fabmap_node::PlaceModel& model) {
-  Json json = Json::object({{"without_sequence", calibrationSummary(model.panorama)}});
-  if (model.panorama_sequence) json["in_sequence"] = calibrationSummary(*model.panorama_sequence);
+/// Returns the calibrations of one kind of observation.
+Json kindSummary(const fabmap_node::PlaceCalibration& alone,
+                 const std::optional<fabmap_node::PlaceCalibration>& sequence) {
+  Json json = Json::object({{"without_sequence", calibrationSummary(alone)}});
+  if (sequence) json["in_sequence"] = calibrationSummary(*sequence);
   return json;
 }
 
@@ -110,7 +111,8 @@ int runRecalibrate(const Arguments& arguments, Console& console) {
   if (!arguments.has("json")) return 0;
   Json json = trainSummary(model, bytes);
   json["priors"] = priorSummary(report.priors);
-  json["panoramas"] = panoramaSummary(model);
+  json["single_images"] = kindSummary(model.single, model.single_sequence);
+  json["panoramas"] = kindSummary(model.panorama, model.panorama_sequence);
   urban_nav_core::writeAtomically(arguments.get("json"), json.print());
   return 0;
 }
@@ -146,11 +148,8 @@ int runTrain(const Arguments& arguments, Console& console) {
   const fabmap_node::TrainingReport& report = trained.report;
   console.info(std::to_string(report.observations) + " images, " + std::to_string(report.stationary) +
                " of a stationary camera left out, " + std::to_string(report.descriptors) + " descriptors, " +
-               std::to_string(trained.model.vocabulary.size()) + " words; calibrated with " +
-               std::to_string(report.right) + " pairs of one place and " + std::to_string(report.wrong) +
-               " of two; model " + fabmap_node::modelHash(bytes) + ", " + std::to_string(bytes.size()) + " bytes");
-  if (report.right == 0 || report.wrong == 0)
-    console.warn("too few images to calibrate: no place will be reported as KNOWN");
+               std::to_string(trained.model.vocabulary.size()) + " words; model " + fabmap_node::modelHash(bytes) +
+               ", " + std::to_string(bytes.size()) + " bytes");
   if (arguments.has("json")) {
     Json json = trainSummary(trained.model, bytes);
     json["images"] = static_cast<std::int64_t>(report.observations);
@@ -166,7 +165,7 @@ int runTrain(const Arguments& arguments, Console& console) {
 Command placesTrainAction() {
   Command action;
   action.name = "train";
-  action.summary = "Trains a model of places: vocabulary, Chow-Liu tree, sampled places and calibration.";
+  action.summary = "Trains a model of places: vocabulary, Chow-Liu tree and sampled places.";
   action.options = {
       {"SRC", "", "folders of images, or bags; each is a drive through different places", true, true, {}},
       {"-o,--output", "MODEL", "model to write", true, false, {}},
