@@ -9,6 +9,7 @@
 #include "loop_metric/loop_metric.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_registration/session/stored_beams.hpp"
 
 namespace urban_nav {
 
@@ -69,15 +70,16 @@ class SeveralStores::Scans final : public urban_nav_store::ScanStore {
   void put(const SessionId&, const std::string&, const urban_nav_core::Scan&) override { refuseWriting(); }
   std::vector<std::string> lasers(const SessionId& session) const override {
     Store* const store = findStore(stores_, session);
-    return store == nullptr ? std::vector<std::string>() : store->scans().lasers(session);
+    return store == nullptr ? std::vector<std::string>() : urban_nav_registration::BeamReader(*store).lasers(session);
   }
   std::int64_t count(const SessionId& session, const std::string& laser) const override {
     Store* const store = findStore(stores_, session);
-    return store == nullptr ? 0 : store->scans().count(session, laser);
+    return store == nullptr ? 0 : urban_nav_registration::BeamReader(*store).count(session, laser);
   }
   void forEach(const SessionId& session, const std::string& laser, StampNs from, StampNs to,
                const std::function<void(const urban_nav_core::Scan&)>& take) const override {
-    if (Store* const store = findStore(stores_, session)) store->scans().forEach(session, laser, from, to, take);
+    if (Store* const store = findStore(stores_, session))
+      urban_nav_registration::BeamReader(*store).forEach(session, laser, from, to, take);
   }
 
  private:

@@ -5,6 +5,7 @@
 
 #include "map/session_odometry.hpp"
 #include "urban_nav_registration/session/calibration_fingerprint.hpp"
+#include "urban_nav_registration/session/stored_beams.hpp"
 
 namespace urban_nav {
 
@@ -20,7 +21,7 @@ loop_metric::StoredPlaceData::Sessions storedSessions(
     for (const urban_nav_store::Property& property : store.sessions().properties(session.id))
       if (camera && property.name == urban_nav_registration::kCalibrationProperty)
         its.conversion = urban_nav_registration::findConversion(property.value, *camera, its.has_camera);
-    its.lasers = urban_nav_registration::storedLasers(store, session.id);
+    its.lasers = urban_nav_registration::storedBeamSources(store, session.id);
   }
   return made;
 }
