@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace urban_nav {
@@ -28,6 +29,14 @@ MetricClosure toCandidate(const urban_nav_core::TopologicalClosure& closure, con
   made.verdict = ClosureVerdict::Waiting;
   made.source = source;
   return made;
+}
+
+void addProposed(const std::vector<urban_nav_core::TopologicalClosure>& proposed, const std::string& source,
+                 std::vector<urban_nav_core::MetricClosure>& closures) {
+  std::set<std::pair<urban_nav_core::PoseRef, urban_nav_core::PoseRef>> known;
+  for (const urban_nav_core::MetricClosure& closure : closures) known.insert(std::minmax(closure.a, closure.b));
+  for (const urban_nav_core::TopologicalClosure& closure : proposed)
+    if (known.insert(std::minmax(closure.a, closure.b)).second) closures.push_back(toCandidate(closure, source));
 }
 
 MetricClosure toMetricClosure(const ClosureRow& row) {

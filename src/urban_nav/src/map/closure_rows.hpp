@@ -25,6 +25,10 @@ struct ClosureAssessment {
 /// Returns a closure whose transform is not known yet. `source`: where it comes from, for messages.
 urban_nav_core::MetricClosure toCandidate(const urban_nav_core::TopologicalClosure& closure, const std::string& source);
 
+/// Appends the proposed closures to `closures` as candidates of `source`, except pairs that it has already.
+void addProposed(const std::vector<urban_nav_core::TopologicalClosure>& proposed, const std::string& source,
+                 std::vector<urban_nav_core::MetricClosure>& closures);
+
 /// Returns the closure in a row of a file: a candidate, or with a transform one of independent errors on all axes. The
 /// method stays as the file has it.
 urban_nav_core::MetricClosure toMetricClosure(const urban_nav_core::ClosureRow& row);

@@ -5,6 +5,7 @@
 
 #include "base/plot.hpp"
 #include "map/closure_notes.hpp"
+#include "topics/loops/cloud_candidates.hpp"
 #include "topics/loops/loops_report.hpp"
 #include "topics/loops/loops_run.hpp"
 #include "topics/loops/stored_sessions.hpp"
@@ -38,6 +39,7 @@ class LoopsStage final : public Stage {
     measurer.sessions = storedSessions(sessions, *context.store, measurer.camera);
     measurer.parameters = context.options.parameters.get(loop_metric::table());
     measurer.parameters.registration = context.options.parameters.get(urban_nav_registration::table());
+    addProposed(proposeByClouds(context, measurer), "clouds", context.closures);
     LoopsRun run = runLoops(measurer, context.closures, context.measured, context.console);
     if (run_ && run_->candidates > 0) addTimes(*run_, run);
     run_ = std::move(run);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <set>
 #include <utility>
 
 #include "fabmap_node/decision/travelled_distance.hpp"
@@ -120,14 +119,6 @@ PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlace
     result.warnings.push_back(std::to_string(other_model) +
                               " places of previous sessions have words of a different model and are not used");
   return result;
-}
-
-void addProposed(const std::vector<urban_nav_core::TopologicalClosure>& proposed,
-                 std::vector<urban_nav_core::MetricClosure>& closures) {
-  std::set<std::pair<urban_nav_core::PoseRef, urban_nav_core::PoseRef>> known;
-  for (const urban_nav_core::MetricClosure& closure : closures) known.insert(std::minmax(closure.a, closure.b));
-  for (const urban_nav_core::TopologicalClosure& closure : proposed)
-    if (known.insert(std::minmax(closure.a, closure.b)).second) closures.push_back(toCandidate(closure, "places"));
 }
 
 }  // namespace urban_nav

@@ -32,10 +32,6 @@ struct PlacesRun {
 PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model,
                     const MapContext& context);
 
-/// Appends the proposed closures to `closures` as candidates, except pairs that it has already.
-void addProposed(const std::vector<urban_nav_core::TopologicalClosure>& proposed,
-                 std::vector<urban_nav_core::MetricClosure>& closures);
-
 /// Returns pairs of thumbnails of recognised places, the query below the place: some with the highest probability, and
 /// some with the lowest above the threshold for closures.
 std::vector<PagePicture> placePictures(const PlacesRun& run, const MapContext& context);

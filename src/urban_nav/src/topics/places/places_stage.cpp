@@ -44,7 +44,7 @@ class PlacesStage final : public Stage {
     run_ = runPlaces(context.options.parameters.get(fabmap_node::table()), *model(context), context);
     pictures_ = placePictures(*run_, context);
     if (!context.groups.empty()) context.closures = context.given;  // instead of those within larger groups
-    if (isRequested(context.options, "loops")) addProposed(run_->closures, context.closures);
+    if (isRequested(context.options, "loops")) addProposed(run_->closures, "places", context.closures);
     if (run_->observations == 0) return {{}, run_->warnings};
     return {{"places: " + std::to_string(run_->observations) + (run_->has_panoramas ? " panoramas, " : " images, ") +
              std::to_string(run_->closures.size()) + " closures proposed"},
