@@ -28,34 +28,34 @@ float groundHeight(const urban_nav_core::PointCloud& cloud) {
 }  // namespace
 
 std::optional<CloudDescriptor> CloudDescriptor::describe(const urban_nav_core::PointCloud& cloud) {
-  CloudDescriptor made;
+  CloudDescriptor descriptor;
   const float ground = groundHeight(cloud);
-  constexpr auto reach = static_cast<float>(kReach);
+  constexpr auto kFarthest = static_cast<float>(kReach);
   for (const Eigen::Vector3f& p : cloud.points) {
     const float distance = p.head<2>().norm();
-    if (!p.allFinite() || !(distance < reach)) continue;
-    const auto ring = static_cast<std::size_t>(distance / reach * static_cast<float>(kDistances));
+    if (!p.allFinite() || !(distance < kFarthest)) continue;
+    const auto ring = static_cast<std::size_t>(distance / kFarthest * static_cast<float>(kDistances));
     const double turn = (std::atan2(static_cast<double>(p.y()), static_cast<double>(p.x())) + M_PI) / (2.0 * M_PI);
     const auto direction = std::min(kDirections - 1, static_cast<std::size_t>(turn * static_cast<double>(kDirections)));
-    float& height = made.columns_[direction][std::min(kDistances - 1, ring)];
+    float& height = descriptor.columns_[direction][std::min(kDistances - 1, ring)];
     height = std::max(height, std::clamp(p.z() - ground, kLowest, kHighest));
   }
   std::size_t seen = 0;
   for (std::size_t i = 0; i < kDirections; ++i) {
-    Column& column = made.columns_[i];
+    Column& column = descriptor.columns_[i];
     float squares = 0.0F;
     std::size_t bins = 0;
     for (std::size_t k = 0; k < kDistances; ++k) {
-      made.profile_[k] += column[k] / static_cast<float>(kDirections);
+      descriptor.profile_[k] += column[k] / static_cast<float>(kDirections);
       squares += column[k] * column[k];
       bins += column[k] > 0.0F ? 1 : 0;
     }
-    made.is_seen_[i] = bins > 0;
+    descriptor.is_seen_[i] = bins > 0;
     seen += bins >= kSeenBins ? 1 : 0;
     for (float& height : column) height /= std::sqrt(std::max(1e-12F, squares));
   }
   if (10 * seen < kDirections) return std::nullopt;
-  return made;
+  return descriptor;
 }
 
 double CloudDescriptor::similarity(const CloudDescriptor& other) const {

@@ -14,19 +14,19 @@ namespace {
 
 constexpr double kSpacing = 3.0;           // m of path between places: half the width of a street lane and more
 constexpr double kHalfLength = 2.0;        // m of path before and after a place, whose sweeps describe it
-constexpr double kApart = 20.0;            // m of path between two places of a session that may be one
+constexpr double kApartOnPath = 20.0;      // m of path between two places of a session that may be one
 constexpr double kLeastSimilarity = 0.65;  // the transform decides; below it hardly any can be measured
 
 /// Place of a session at which the surroundings are described.
-struct Place {
+struct CloudPlace {
   urban_nav_core::PoseRef at;
   std::size_t session = 0;
   double distance = 0.0;  // m
   bool is_known = false;
 };
 
-std::vector<Place> listPlaces(const MapContext& context, const std::vector<std::size_t>& group) {
-  std::vector<Place> places;
+std::vector<CloudPlace> listPlaces(const MapContext& context, const std::vector<std::size_t>& group) {
+  std::vector<CloudPlace> places;
   const std::vector<const SessionOdometry*> runs = context.runs();
   for (const std::size_t s : group) {
     if (runs[s]->source != OdometrySource::Laser) continue;
@@ -44,7 +44,7 @@ std::vector<Place> listPlaces(const MapContext& context, const std::vector<std::
   return places;
 }
 
-void proposeInGroup(const std::vector<Place>& places, const CandidateMeasurer& measurer,
+void proposeInGroup(const std::vector<CloudPlace>& places, const CandidateMeasurer& measurer,
                     std::vector<urban_nav_core::TopologicalClosure>& proposed) {
   std::vector<std::optional<CloudDescriptor>> descriptors(places.size());
   constexpr std::size_t kRun = 16;  // places that share readers of the store
@@ -62,7 +62,7 @@ void proposeInGroup(const std::vector<Place>& places, const CandidateMeasurer& m
     numbers.push_back(i);
   }
   for (const urban_nav_registration::SimilarPlaces& pair :
-       urban_nav_registration::findSimilarPlaces(described, kLeastSimilarity, kApart))
+       urban_nav_registration::findSimilarPlaces(described, kLeastSimilarity, kApartOnPath))
     proposed.push_back({places[numbers[pair.earlier]].at, places[numbers[pair.later]].at, pair.similarity});
 }
 
@@ -72,7 +72,7 @@ std::vector<urban_nav_core::TopologicalClosure> proposeByClouds(const MapContext
                                                                 const CandidateMeasurer& measurer) {
   std::vector<urban_nav_core::TopologicalClosure> proposed;
   for (const std::vector<std::size_t>& group : sessionsOfGroups(context)) {
-    const std::vector<Place> places = listPlaces(context, group);
+    const std::vector<CloudPlace> places = listPlaces(context, group);
     if (places.size() > 1) proposeInGroup(places, measurer, proposed);
   }
   return proposed;
