@@ -41,6 +41,10 @@ constexpr std::array<const char*, 5> kPanoramaInfos = {"ladybug/camera0/camera_i
 constexpr const char* kTruthPose = "ground_truth/pose";
 constexpr const char* kTruthTransforms = "ground_truth/tf";
 
+// Odometry of the robot as later stages receive it: launch files connect it to swf_vo or laser_odometry.
+constexpr const char* kOdometry = "odometry";
+constexpr const char* kRelativePose = "odometry/relative_pose";
+
 // swf_vo.
 constexpr const char* kVoOdometry = "vo/odometry";
 constexpr const char* kVoRelativePose = "vo/relative_pose";
