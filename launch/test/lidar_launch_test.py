@@ -11,7 +11,7 @@ import rosbag
 import rospy
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
-from urban_nav_msgs.msg import GraphState, LocalizationState, MetricClosure
+from urban_nav_msgs.msg import GraphState, LocalizationState, MapTile, MetricClosure
 from urban_nav_msgs.srv import GetTrajectory
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -53,6 +53,7 @@ class LidarLaunch(LaunchCase):
 
     def test_a_drive_is_mapped_and_closed(self):
         odometry, closures, states = self.listen("lo/odometry", Odometry), self.listen("loops/metric", MetricClosure), self.listen("graph/state", GraphState)
+        tiles = self.listen("map/tiles", MapTile)
         self.launch("bag.launch", bag=self.bag, odometry="laser", rate=RATE, rviz="false", paused="true")
         self.expect(lambda: {"/player/pause_playback", "/pose_graph/get_trajectory", "/loop_metric/finish"} <= services(), "the nodes")
         self.expect(lambda: {"/points", "/lo/relative_pose", "/lo/odometry"} <= connections("/stereo_manager"), lambda: f"only {connections('/stereo_manager')}")
@@ -63,9 +64,10 @@ class LidarLaunch(LaunchCase):
         self.assertTrue(self.listener.connected("map", "base_link"), str(self.listener.links))
         for stage in ("loop_metric", "pose_graph"):
             subprocess.run(["rosservice", "call", f"/{stage}/finish"], check=True, stdout=subprocess.DEVNULL)
+        self.expect(lambda: tiles, "tiles of the map")
         accepted = [closure for closure in closures if closure.verdict == MetricClosure.ACCEPTED]
         print(f"{len(accepted)} of {len(closures)} proposed closures accepted")
-        self.assertTrue(accepted, [closure.sentence for closure in closures])
+        self.assertTrue(accepted, [closure.message for closure in closures])
         errors = self.errors([pose_of(each.T_a_b) for each in accepted], [each.b.stamp for each in accepted], [each.a.stamp for each in accepted])
         self.assertLess(errors[:, 0].max(), ALLOWED_M)
         self.assertLess(errors[:, 1].max(), ALLOWED_RAD)

@@ -5,7 +5,6 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,7 +15,7 @@
 #include "urban_nav_live/beam_faults.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
 #include "urban_nav_ros/stereo_sessions.hpp"
-#include "urban_nav_ros/sweep_feed.hpp"
+#include "urban_nav_ros/sweep_feeds.hpp"
 
 namespace urban_nav_ros {
 
@@ -37,7 +36,9 @@ class RobotInputs {
       : base_frame_(options.base_frame),
         sink_(sink),
         listener_(std::move(listener)),
-        sessions_(options, stereoListener()) {}
+        sessions_(options, stereoListener()),
+        sweeps_({[this](const std::string& frame, const urban_nav_core::Sweep& sweep) { sink_.addSweep(frame, sweep); },
+                 [this] { listener_.invalid_scan(); }}) {}
 
   void handle(const ImageInput& image) { sessions_.handle(image); }
   void handle(const InfoInput& info) { sessions_.handle(info); }
@@ -53,11 +54,7 @@ class RobotInputs {
     placeLasers();
   }
   void handle(const sensor_msgs::PointCloud2ConstPtr& cloud) {
-    SweepFeed& feed = feeds_[cloud->header.frame_id];
-    for (const urban_nav_core::ReadSweep& read : feed.add(cloud)) {
-      if (read.fault.empty()) sink_.addSweep(cloud->header.frame_id, read.sweep);
-      else listener_.invalid_scan();
-    }
+    sweeps_.add(cloud);
     placeLasers();
   }
   void handle(const urban_nav_core::StampedTurn& turn) { sink_.addTurn(turn); }
@@ -72,9 +69,7 @@ class RobotInputs {
   const std::string& mountingFault() const { return mounting_fault_; }
   /// Returns a message naming a laser whose mounting is unknown or whose clouds are unusable; else an empty text.
   std::string laserFault() const {
-    std::string fault;
-    for (const auto& [frame, feed] : feeds_)
-      if (!feed.fault().empty()) fault = frame + ": " + feed.fault();
+    std::string fault = sweeps_.fault();
     for (const std::string& frame : sink_.unplacedLasers()) fault = "no static tf from " + base_frame_ + " to " + frame;
     return fault;
   }
@@ -107,7 +102,7 @@ class RobotInputs {
   StereoSessions sessions_;
   std::string mounting_fault_;
   urban_nav_live::BeamFaults beams_;
-  std::map<std::string, SweepFeed> feeds_;  // of 3D LiDARs, by frame
+  SweepFeeds sweeps_;
 };
 
 }  // namespace urban_nav_ros
