@@ -17,7 +17,7 @@ void LiveLaserOdometry::place(const urban_nav_core::Pose& T_base_lidar) {
 void LiveLaserOdometry::process(const urban_nav_core::Sweep& sweep) {
   if (odometry_ && urban_nav_core::jumpsBack(sweep.reference, newest_.stamp)) end("time went back");
   if (!odometry_) {
-    odometry_ = std::make_unique<LaserOdometry>(parameters_, T_base_lidar_);
+    odometry_ = std::make_unique<LaserOdometry>(parameters_, T_base_lidar_, scanner_);
     ++sessions_;
     session_ = urban_nav_live::toOdometrySession(namer_.begin(recording_, sweep.reference).session);
   }

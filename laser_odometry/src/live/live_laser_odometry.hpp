@@ -18,9 +18,13 @@ class LiveLaserOdometry {
   using Listener = std::function<void(const LaserPose& pose, double process_ms)>;
 
   /// `robot`, `recording`: parts of the session ids; may be empty.
-  LiveLaserOdometry(const Parameters& parameters, Listener listener, const std::string& robot = "",
-                    std::string recording = "")
-      : parameters_(parameters), listener_(std::move(listener)), recording_(std::move(recording)), namer_(robot) {}
+  LiveLaserOdometry(const Parameters& parameters, Listener listener, Scanner scanner = Scanner::Spatial,
+                    const std::string& robot = "", std::string recording = "")
+      : parameters_(parameters),
+        scanner_(scanner),
+        listener_(std::move(listener)),
+        recording_(std::move(recording)),
+        namer_(robot) {}
 
   /// Sets the pose of the LiDAR on the robot. A change ends the session.
   void place(const urban_nav_core::Pose& T_base_lidar);
@@ -44,6 +48,7 @@ class LiveLaserOdometry {
 
  private:
   const Parameters parameters_;
+  const Scanner scanner_;
   const Listener listener_;
   const std::string recording_;
   urban_nav_live::SessionNamer namer_;

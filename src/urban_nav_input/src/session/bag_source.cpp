@@ -16,6 +16,7 @@
 #include "session/bag_sensors.hpp"
 #include "session/bag_sweeps.hpp"
 #include "session/given_transforms.hpp"
+#include "session/planar_laser.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
@@ -49,7 +50,8 @@ constexpr urban_nav_core::StampNs kLongestWait =
     1'000'000'000;  // ns, for a topic whose stamps are earlier than those of the images
 
 constexpr const char* kBagStateName = "reader of bags";
-constexpr std::uint32_t kBagStateVersion = 10;
+constexpr std::uint32_t kBagStateVersion = 11;
+constexpr std::array<Role, 3> kLasers = {{Role::LaserLeft, Role::LaserRight, Role::Scan}};
 constexpr urban_nav_core::StampNs kReceiptTolerance =
     25'000'000;                         // ns: images of a pair are received one after another
 constexpr std::size_t kMostSweeps = 4;  // waiting for a pair
@@ -63,7 +65,8 @@ class BagSource : public Source {
     topics_ = chooseTopics(recording_.topicTypes(), options.topics);
     planar_clouds_ = PlanarClouds(recording_, part_, options.topics, topics_);
     info_.has_images = topics_.find(Role::Left) && topics_.find(Role::Right);
-    if (!info_.has_images && !(options.with_sweeps && topics_.find(Role::Points0)))
+    if (mayUsePlanarLaser()) guessScan(recording_.topicTypes(), topics_);
+    if (!info_.has_images && !topics_.find(Role::Points0) && !(mayUsePlanarLaser() && hasLaser()))
       throw DataError(name_,
                       "has no stereo pair of image topics: " + listImageTopics(recording_) +
                           (planar_clouds_.findings().empty()
@@ -135,6 +138,15 @@ class BagSource : public Source {
     return item;
   }
 
+  /// Returns whether scans of a planar laser are read as sweeps, if there is a horizontal one.
+  bool mayUsePlanarLaser() const {
+    return options_.with_sweeps && !topics_.find(Role::Points0) && (!info_.has_images || options_.with_planar_sweeps);
+  }
+
+  bool hasLaser() const {
+    return std::any_of(kLasers.begin(), kLasers.end(), [this](Role role) { return topics_.find(role).has_value(); });
+  }
+
   void calibrate() {
     const ChosenTopic left = *topics_.find(Role::Left);
     const FirstImage seen = findFirstImage(recording_, left);
@@ -186,7 +198,7 @@ class BagSource : public Source {
     if (options_.with_sweeps)
       sweeps_in_bag_ = BagSweeps(recording_, topics_, transforms, options_.points, part_, info_.has_images);
     info_.notes.insert(info_.notes.end(), sweeps_in_bag_.notes().begin(), sweeps_in_bag_.notes().end());
-    if (!info_.has_images && sweeps_in_bag_.empty())
+    if (!info_.has_images && sweeps_in_bag_.empty() && !mayUsePlanarLaser())
       throw DataError(name_, "has no images, and no sweep that can be used: " + sweeps_in_bag_.notes().back(), "");
     const auto imu =
         topics_.find(Role::Imu) ? recording_.first<sensor_msgs::Imu>(topics_.find(Role::Imu)->name) : nullptr;
@@ -197,22 +209,54 @@ class BagSource : public Source {
       info_.notes.push_back("no static tf from base_link to \"" + imu->header.frame_id + "\": the axes of " +
                             topics_.find(Role::Imu)->name +
                             " are assumed to be those of base_link for its gyroscope; its accelerometer is not used");
-    for (const Role role : {Role::LaserLeft, Role::LaserRight}) {
+    placeLasers(transforms);
+    panorama_ = BagPanorama(recording_, topics_, transforms);
+    info_.panorama = panorama_.cameras();
+  }
+
+  void placeLasers(const urban_nav_ros::StaticTransforms& transforms) {
+    std::vector<PlacedLaser> placed;
+    for (const Role role : kLasers) {
       const std::optional<ChosenTopic> topic = topics_.find(role);
       const auto scan = topic ? planar_clouds_.first(recording_, topic->name) : nullptr;
       if (!scan) continue;
-      if (const auto T_base_laser = transforms.lookup(frames::kBaseLink, scan->header.frame_id)) {
-        info_.lasers.push_back({scan->header.frame_id, *T_base_laser});
-        laser_topics_.push_back(topic->name);
-        sensors_.addLaser(topic->name, scan->header.frame_id, *T_base_laser);
-        sensors_.add(placeFindings(scan->header.frame_id, *T_base_laser));
-      } else {
-        info_.notes.push_back("no static tf from base_link to \"" + scan->header.frame_id + "\": " + topic->name +
-                              " is not used");
-      }
+      const std::string& frame = scan->header.frame_id;
+      std::optional<urban_nav_core::Pose> T_base_laser = transforms.lookup(frames::kBaseLink, frame);
+      const bool is_base = !T_base_laser && role == Role::Scan && placed.empty() && mayUsePlanarLaser() &&
+                           !info_.has_images;
+      if (!T_base_laser)
+        info_.notes.push_back("no static tf from base_link to \"" + frame + "\": " +
+                              (is_base ? "base_link is assumed at this laser, which is assumed to be horizontal, "
+                                       : "") +
+                              topic->name + (is_base ? "" : " is not used"));
+      if (is_base) T_base_laser.emplace();
+      if (!T_base_laser) continue;
+      info_.lasers.push_back({frame, *T_base_laser});
+      laser_topics_.push_back(topic->name);
+      placed.push_back({toString(role), topic->name, *T_base_laser});
+      sensors_.addLaser(topic->name, frame, *T_base_laser);
+      sensors_.add(placeFindings(frame, *T_base_laser));
     }
-    panorama_ = BagPanorama(recording_, topics_, transforms);
-    info_.panorama = panorama_.cameras();
+    choosePlanarLaser(std::move(placed));
+  }
+
+  void choosePlanarLaser(std::vector<PlacedLaser> lasers) {
+    if (!mayUsePlanarLaser()) return;
+    std::rotate(lasers.begin(),
+                std::find_if(lasers.begin(), lasers.end(),
+                             [](const PlacedLaser& laser) { return laser.role == toString(Role::Scan); }),
+                lasers.end());  // the laser of this role first
+    planar_laser_ = PlanarLaser::choose(lasers);
+    if (planar_laser_) {
+      info_.planar_role = planar_laser_->role();
+      info_.notes.push_back(planar_laser_->note());
+    } else if (!info_.has_images) {
+      std::string why = PlanarLaser::describeOthers(lasers);
+      if (why.empty()) why = info_.notes.back();
+      for (const Finding& finding : planar_clouds_.findings()) why += "; " + finding.text;
+      throw DataError(
+          name_, "has no images, no clouds of a 3D LiDAR, and no scans that can be used for odometry: " + why, "");
+    }
   }
 
   /// Selects the sensors to read, from the topics and the extrinsics of the IMU.
@@ -233,8 +277,15 @@ class BagSource : public Source {
     return {topics_.find(Role::Left)->name, topics_.find(Role::Right)->name};
   }
 
+  /// Returns the topics whose stamps are those of the frames, or of the sweeps without images.
+  std::vector<std::string> leadingTopics() const {
+    if (info_.has_images) return imageTopics();
+    if (planar_laser_) return {planar_laser_->topic()};
+    return sweeps_in_bag_.topics();
+  }
+
   void startReading() {
-    const std::vector<std::string> leading = info_.has_images ? imageTopics() : sweeps_in_bag_.topics();
+    const std::vector<std::string> leading = leadingTopics();
     StereoFeed::Options feed;
     feed.max_lateness = kMaxLateness;
     feed.longest_wait = kLongestWait;
@@ -249,7 +300,7 @@ class BagSource : public Source {
     MessageSelection frames = recording_.select(leading, part_);
     info_.frames +=
         info_.has_images ? recording_.select(std::vector<std::string>{leading.front()}, part_).size() : frames.size();
-    if (frames.size() == 0) throw DataError(name_, info_.has_images ? "holds no images" : "holds no clouds", "");
+    if (frames.size() == 0) throw DataError(name_, info_.has_images ? "holds no images" : "holds no clouds or scans", "");
     std::tie(info_.first, info_.last) =
         stamps_are_receipts_ ? std::make_pair(frames.first(), frames.last()) : findStampSpan(frames);
     if (info_.has_images) feed_->expectRange(surveyGreyRange(recording_, leading));
@@ -313,7 +364,7 @@ class BagSource : public Source {
   }
 
   void archive(urban_nav_core::Archive& archive) {
-    bool has_images = info_.has_images;
+    bool has_images = info_.has_images, has_planar_laser = planar_laser_.has_value();
     archive(has_images);
     archive.require(has_images == info_.has_images, "images in all bags, or in none");
     if (has_images) {
@@ -332,7 +383,9 @@ class BagSource : public Source {
         sensors_.addLaser(topic, place.first, place.second);
       }
     }
-    archive(panorama_, sweeps_in_bag_);
+    archive(panorama_, sweeps_in_bag_, has_planar_laser);
+    archive.require(has_planar_laser == planar_laser_.has_value(), "a horizontal planar laser in all bags, or in none");
+    if (planar_laser_) archive(*planar_laser_);
     info_.panorama = panorama_.cameras();
     if (archive.isReading()) listen();
     archive(sensors_, *wheels_, *gyroscope_);
@@ -423,8 +476,10 @@ class BagSource : public Source {
     const std::string& topic = instance.topic();
     const auto laser =
         static_cast<std::size_t>(std::find(laser_topics_.begin(), laser_topics_.end(), topic) - laser_topics_.begin());
-    if (const auto planar = sensors_.read(laser, message, instance.receipt()))
-      scans_.push_back({laser, urban_nav_core::toScan(*planar)});
+    const auto planar = sensors_.read(laser, message, instance.receipt());
+    if (!planar) return;
+    scans_.push_back({laser, urban_nav_core::toScan(*planar)});
+    if (planar_laser_ && planar_laser_->topic() == topic) sweeps_.push_back(planar_laser_->read(*planar));
   }
 
   const SourceOptions options_;
@@ -447,6 +502,7 @@ class BagSource : public Source {
   BagPanorama panorama_;
   std::vector<urban_nav_ros::Panorama> panoramas_;  // since the previous pair or end of a bag
   BagSweeps sweeps_in_bag_;
+  std::optional<PlanarLaser> planar_laser_;  // read as sweeps
   std::vector<SweepInput> sweeps_;  // since the previous item or end of a bag
   std::optional<StereoFeed> feed_;  // with images
   bool is_placed_ = false;          // the bags have the extrinsics of the camera

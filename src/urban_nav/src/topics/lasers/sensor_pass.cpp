@@ -66,6 +66,7 @@ void SensorPass::process(const urban_nav_ros::Panorama& panorama) {
 }
 
 void SensorPass::process(const urban_nav_input::SweepInput& input) {
+  if (input.is_planar) return;  // stored as scans
   if (findLast(input.role) == nullptr)
     TableStore<MountedLidar>(store_).put(
         {session_.id, input.role, frameName(session_.info, input.role), input.T_base_lidar});
