@@ -120,7 +120,8 @@ void LaserOdometryStage::begin(const std::string& frame) {
 bool LaserOdometryStage::place() {
   const auto T_base_lidar = transforms_.lookup(nodelet_.base_frame, frame_);
   if (!T_base_lidar) {
-    odometry_->setFault("no transform from " + nodelet_.base_frame + " to " + frame_ + " on /tf_static");
+    odometry_->setFault("no transform from " + nodelet_.base_frame + " to " + frame_ + " on /tf_static" +
+                        (nodelet_.planar ? "; lasers that nod or spin are not supported" : ""));
     return false;
   }
   if (nodelet_.planar && !urban_nav_core::isHorizontal(*T_base_lidar)) {

@@ -30,7 +30,7 @@ const Table<NodeletParameters>& nodeletTable() {
            "Name of the recording, part of the session ids; a second run of it is \"NAME (2)\".",
            "docs/architecture.md"},
           {"planar", &P::planar, "", false, false, true, {},
-           "Whether the sensor is a horizontal planar laser, on scan, instead of a 3D LiDAR, on points.",
+           "Whether the sensor is a horizontal planar laser, on scan.",
            "docs/architecture.md"},
           {"deskewed", &P::deskewed, "", false, false, true, {},
            "Whether the driver already compensates the motion within a sweep.", "docs/architecture.md"},

@@ -120,7 +120,7 @@ Command simulateCommand() {
        {}},
       {"--folder", "DIR", "also write the stereo stream as a KITTI folder", false, false, {}},
       {"--sensors", "LIST", "of " + urban_nav_sim::sensorList() + " (default: all but lidar3d)", false, true, {}},
-      {"--lidar", "KIND", "rings of lidar3d, 16 to 128 (default 64), or livox: a rosette", false, false, {}},
+      {"--lidar", "KIND", "rings of lidar3d, 16 to 128 (default 64), planar: one horizontal ring, or livox: a rosette", false, false, {}},
       {"--without",
        "LIST",
        "SENSOR:DEFECT,... to disable; all for either: imu:noise, gps:all, all:jitter (below)",

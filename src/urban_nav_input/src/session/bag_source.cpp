@@ -222,9 +222,14 @@ class BagSource : public Source {
       if (!scan) continue;
       const std::string& frame = scan->header.frame_id;
       std::optional<urban_nav_core::Pose> T_base_laser = transforms.lookup(frames::kBaseLink, frame);
-      const bool is_base = !T_base_laser && role == Role::Scan && placed.empty() && mayUsePlanarLaser() &&
-                           !info_.has_images;
-      if (!T_base_laser)
+      const std::string moving = T_base_laser ? "" : transforms.findMoving(frames::kBaseLink, frame);
+      const bool is_base = !T_base_laser && moving.empty() && role == Role::Scan && placed.empty() &&
+                           mayUsePlanarLaser() && !info_.has_images;
+      if (!moving.empty())
+        info_.notes.push_back("the transform to \"" + moving + "\" on /tf changes over time: " + topic->name +
+                              " is not used, since each scan of a laser that nods or spins needs its own mounting, "
+                              "which is not supported");
+      else if (!T_base_laser)
         info_.notes.push_back("no static tf from base_link to \"" + frame + "\": " +
                               (is_base ? "base_link is assumed at this laser, which is assumed to be horizontal, "
                                        : "") +

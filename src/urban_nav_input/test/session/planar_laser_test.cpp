@@ -180,6 +180,23 @@ TEST(PlanarLaser, WithoutTfItIsAssumedAtBaseLinkAndReported) {
   EXPECT_NE(faultOf(writeScans(folder, {{"/laser_left/scan", "laser_left", std::nullopt}})), "");
 }
 
+TEST(PlanarLaser, OneThatNodsIsRefusedWithTheReason) {
+  const TemporaryFolder folder;
+  const std::string path = writeScans(folder, {{"/scan", "laser", std::nullopt}});
+  {
+    rosbag::Bag bag(path, rosbag::bagmode::Append);
+    for (int i = 0; i < kScanCount; ++i) {
+      tf2_msgs::TFMessage nod;
+      nod.transforms.push_back(urban_nav_ros::toStaticTransform("base_link", "laser", mountedAt({0, 0.05 * i, 0})));
+      nod.transforms[0].header.stamp = ros::Time(kScansStart + kScanPeriod * i);
+      bag.write("/tf", nod.transforms[0].header.stamp, nod);
+    }
+  }
+  const std::string fault = faultOf(path);
+  EXPECT_NE(fault.find("the transform to \"laser\" on /tf changes over time"), std::string::npos) << fault;
+  EXPECT_NE(fault.find("nods or spins"), std::string::npos) << fault;
+}
+
 TEST(PlanarLaser, WithImagesItIsUsedOnlyIfAskedFor) {
   const TemporaryFolder folder;
   const std::string path = writeScans(folder, {{"/scan", "laser", mountedAt({0, 0, 0})}}, true);
