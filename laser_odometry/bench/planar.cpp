@@ -78,8 +78,8 @@ double neesInPlane(const Run& run, std::size_t scans) {
 double errorInMillimetres(const Run& run, std::size_t scans) {
   double sum = 0.0, count = 0.0;
   for (std::size_t i = 0; i + scans < run.poses.size(); ++i, count += 1.0)
-    sum += ((run.truth[i].inverse() * run.truth[i + scans]).t() -
-            (run.poses[i].inverse() * run.poses[i + scans]).t()).squaredNorm();
+    sum += ((run.truth[i].inverse() * run.truth[i + scans]).t() - (run.poses[i].inverse() * run.poses[i + scans]).t())
+               .squaredNorm();
   return 1e3 * std::sqrt(sum / count);
 }
 
@@ -96,15 +96,16 @@ int main(int argc, char** argv) try {
   using laser_odometry::makePlanarLaser;
   std::vector<Drive> drives;
   drives.push_back({"office", {}, makePlanarLaser(), laser_odometry::makeFigureEight(5.0, 2.0, 30.0)});
-  drives.push_back({"office, 360 beams of 20 mm", {}, makePlanarLaser(360, 0.02),
-                    laser_odometry::makeFigureEight(5.0, 2.0, 30.0)});
+  drives.push_back(
+      {"office, 360 beams of 20 mm", {}, makePlanarLaser(360, 0.02), laser_odometry::makeFigureEight(5.0, 2.0, 30.0)});
   drives.push_back({"hall", {}, makePlanarLaser(1440, 0.015), laser_odometry::makeFigureEight(20.0, 7.0, 60.0)});
   urban_nav_core::testing::BenchTable table({"place", "seed", "error over 1, 10, 50 scans, mm", "NEES 1", "NEES 10",
                                              "NEES 50", "median, ms", "most, ms", "not OK"},
                                             argc, argv);
   for (Drive& drive : drives)
     for (const std::uint64_t seed : {1, 2}) {
-      drive.world = std::string(drive.name) == "hall" ? laser_odometry::makeHall(seed) : laser_odometry::makeOffice(seed);
+      drive.world =
+          std::string(drive.name) == "hall" ? laser_odometry::makeHall(seed) : laser_odometry::makeOffice(seed);
       const Run result = run(drive, seed, parameters);
       table.add({drive.name, std::to_string(seed),
                  cell(errorInMillimetres(result, 1), 1) + ", " + cell(errorInMillimetres(result, 10), 1) + ", " +

@@ -10,7 +10,6 @@
 #include "live/live_laser_odometry.hpp"
 #include "live/nodelet_parameters.hpp"
 #include "publisher.hpp"
-#include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/laser/planar_sweep.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
@@ -21,9 +20,7 @@
 namespace laser_odometry {
 
 namespace {
-
 constexpr double kPointsTimeout = 1.0;  // s; the slowest LiDARs have 5 Hz
-
 }  // namespace
 
 /// Laser odometry on topics, by the clouds of a 3D LiDAR or the scans of a planar laser.
@@ -54,7 +51,6 @@ class LaserOdometryStage {
   void add(const sensor_msgs::PointCloud2ConstPtr& cloud);
   void add(const sensor_msgs::LaserScanConstPtr& message);
   void begin(const std::string& frame);
-  /// Sets the mounting of the sensor's frame. Returns false, with a fault, if it is unknown.
   bool place();
   void process(const urban_nav_core::Sweep& sweep);
 
@@ -96,8 +92,8 @@ void LaserOdometryStage::subscribe() {
   options.timeout = kPointsTimeout;
   options.queue = nodelet_.queue_size;
   if (nodelet_.planar)
-    node_.subscribeInput<sensor_msgs::LaserScan>(
-        urban_nav_ros::topics::kScan, options, [](const sensor_msgs::LaserScanConstPtr& message) { return message; });
+    node_.subscribeInput<sensor_msgs::LaserScan>(urban_nav_ros::topics::kScan, options,
+                                                 [](const sensor_msgs::LaserScanConstPtr& message) { return message; });
   else
     node_.subscribeInput<sensor_msgs::PointCloud2>(
         urban_nav_ros::topics::kPoints, options,
@@ -118,21 +114,7 @@ void LaserOdometryStage::begin(const std::string& frame) {
 }
 
 bool LaserOdometryStage::place() {
-  const auto T_base_lidar = transforms_.lookup(nodelet_.base_frame, frame_);
-  if (!T_base_lidar) {
-    odometry_->setFault("no transform from " + nodelet_.base_frame + " to " + frame_ + " on /tf_static" +
-                        (nodelet_.planar ? "; lasers that nod or spin are not supported" : ""));
-    return false;
-  }
-  if (nodelet_.planar && !urban_nav_core::isHorizontal(*T_base_lidar)) {
-    const double tilt = urban_nav_core::tiltOfLaser(*T_base_lidar) * 180.0 / M_PI;
-    odometry_->setFault("the planar laser " + frame_ + " is tilted by " + urban_nav_core::formatNumber(tilt, 3) +
-                        " deg against " + nodelet_.base_frame +
-                        ": none of its scans measures again what an earlier one did; at most 10 deg are allowed");
-    return false;
-  }
-  odometry_->place(*T_base_lidar);
-  return true;
+  return odometry_->place(transforms_.lookup(nodelet_.base_frame, frame_), nodelet_.base_frame, frame_);
 }
 
 void LaserOdometryStage::process(const urban_nav_core::Sweep& sweep) {
@@ -146,14 +128,10 @@ void LaserOdometryStage::add(const sensor_msgs::LaserScanConstPtr& message) {
   if (!feed_ || message->header.frame_id != frame_) begin(message->header.frame_id);
   if (!place()) return;
   const std::optional<urban_nav_core::PlanarScan> scan = urban_nav_ros::toPlanarScan(*message, {});
-  if (!scan) {
-    const std::vector<std::string> faults = node_.sensors().faults();
-    odometry_->setFault(faults.empty() ? "scans without a stamp or without angles of their beams" : faults.front());
-    node_.gate().countInvalid();
-    return;
-  }
-  odometry_->setFault("");
-  process(scans_.read(*scan));
+  const std::vector<std::string> faults = node_.sensors().faults();
+  odometry_->setFault(scan ? "" : faults.empty() ? "scans without a stamp or angles of beams" : faults.front());
+  if (scan) process(scans_.read(*scan));
+  else node_.gate().countInvalid();
 }
 
 void LaserOdometryStage::add(const sensor_msgs::PointCloud2ConstPtr& cloud) {

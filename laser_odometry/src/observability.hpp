@@ -25,8 +25,8 @@ struct PlaneRow {
 struct FreeSubspace {
   /// Root mean square lever of the rotations, m; of planar motion, distance of the patches.
   double lever = 1.0;
-  std::vector<Vector6d> directions;  ///< orthonormal, scaled tangent (m)
-  std::vector<double> evidence;      ///< effective number of patches of all estimated directions, weakest first
+  std::vector<Vector6d> directions;          ///< orthonormal, scaled tangent (m)
+  std::vector<double> evidence;              ///< effective number of patches of all estimated directions, weakest first
   MotionSpace space = MotionSpace::Spatial;  ///< coordinates outside of it are neither free nor observed
 
   bool isFree() const { return !directions.empty(); }

@@ -69,7 +69,8 @@ LaserPose Pipeline::process(const Sweep& sweep, const std::optional<MotionPrior>
   if (map_.empty()) {
     continueByPrediction(prediction, result);
     beginMap(points, knownMotion());
-    result.status = started_ ? statusOfRestart(points, parameters_, space_) : statusOfStart(points, parameters_, space_);
+    result.status =
+        started_ ? statusOfRestart(points, parameters_, space_) : statusOfStart(points, parameters_, space_);
   } else {
     const Aligned aligned = first_.used == 0 ? align(points, prediction, T_odom_base_ * prediction.T_last_now)
                                              : alignSecond(points, prediction);

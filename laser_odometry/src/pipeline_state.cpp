@@ -72,10 +72,10 @@ std::vector<MapPoint> Pipeline::localMap() const {
       // Replaced by a plane of a finer level at the same position.
       bool is_covered = false;
       for (int finer = 0; finer < level && !is_covered; ++finer) is_covered = map_.hasPlane(cell, finer);
-      const Plane plane = map_.planeOf(cell);
+      const Plane plane = map_.findPlane(cell);
       if (is_covered || !plane.usable) continue;
-      points.push_back(
-          {Vector3d(plane.mean + lift).cast<float>(), plane.normal.cast<float>(), static_cast<float>(std::sqrt(plane.variance))});
+      points.push_back({Vector3d(plane.mean + lift).cast<float>(), plane.normal.cast<float>(),
+                        static_cast<float>(std::sqrt(plane.variance))});
     }
   }
   return points;

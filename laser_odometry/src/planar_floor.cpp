@@ -7,9 +7,9 @@
 namespace laser_odometry {
 namespace {
 
-constexpr int kFewestPatches = 6;                  // as the least value of the parameters
-constexpr double kPoseHeight = 1e-3;               // m: floors of buildings are even to 1 mm below a wheel (DIN 18202)
-constexpr double kLeastStep = 1e-6;                // m and rad: keeps the covariance of a step positive definite
+constexpr int kFewestPatches = 6;     // as the least value of the parameters
+constexpr double kPoseHeight = 1e-3;  // m: floors of buildings are even to 1 mm below a wheel (DIN 18202)
+constexpr double kLeastStep = 1e-6;   // m and rad: keeps the covariance of a step positive definite
 
 }  // namespace
 

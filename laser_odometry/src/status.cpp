@@ -12,11 +12,11 @@ using urban_nav_core::Status;
 
 namespace {
 
-constexpr int kFewestPoints = 200;      // returns required for a registration
-constexpr int kFewestPlanarPoints = 30;       // of a planar laser: a twelfth of a revolution with 1 deg between beams
-constexpr double kCoveredShare = 0.25;  // share of returns nearer than min_range
-constexpr double kAgreeing = 3.0;       // standard deviations
-constexpr double kLeastAgreeing = 0.5;  // share of the matches
+constexpr int kFewestPoints = 200;       // returns required for a registration
+constexpr int kFewestPlanarPoints = 30;  // of a planar laser: a twelfth of a revolution with 1 deg between beams
+constexpr double kCoveredShare = 0.25;   // share of returns nearer than min_range
+constexpr double kAgreeing = 3.0;        // standard deviations
+constexpr double kLeastAgreeing = 0.5;   // share of the matches
 // Minimum of Registration::covered if directions are free: below it, the map is of another place, and constrains
 // directions only that all places constrain, such as the height above the ground.
 constexpr double kLeastCovered = 1.0 / 3.0;
@@ -94,9 +94,9 @@ std::optional<Status> findTooFewPoints(const SweepPoints& points, MotionSpace sp
   if (points.valid == 0) return make(Health::Lost, Reason::NoPoints, "no valid return: NaN, or ranges of zero");
   const int left = points.used, fewest = space == MotionSpace::Planar ? kFewestPlanarPoints : kFewestPoints;
   if (left >= fewest) return std::nullopt;
-  return make(Health::Lost, Reason::TooFewPoints,
-              "too few returns in range: " + std::to_string(left) + ", at least " + std::to_string(fewest) +
-                  " required");
+  return make(
+      Health::Lost, Reason::TooFewPoints,
+      "too few returns in range: " + std::to_string(left) + ", at least " + std::to_string(fewest) + " required");
 }
 
 Status statusOfPlanar(Status status) {

@@ -131,7 +131,7 @@ bool SurfaceMap::hasPlane(const MapCell& cell, int level) const {
   if (!key) return false;
   const std::uint32_t number = finer.table.find(*key);
   if (number == CellTable::kNone) return false;
-  return planeOf(finer.cells[number]).usable;
+  return findPlane(finer.cells[number]).usable;
 }
 
 void SurfaceMap::prune(const Vector3d& p, double distance) {

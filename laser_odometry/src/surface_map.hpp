@@ -68,7 +68,7 @@ class SurfaceMap {
   /// Returns whether the cube of a finer `level` that contains the mean of the cell's points has a usable plane.
   bool hasPlane(const MapCell& cell, int level) const;
   /// Returns the plane of one of the cells.
-  Plane planeOf(const MapCell& cell) const { return cell.is_current ? cell.plane : cell.fit(space_); }
+  Plane findPlane(const MapCell& cell) const { return cell.is_current ? cell.plane : cell.fit(space_); }
 
   int levels() const { return static_cast<int>(levels_.size()); }
   /// Cells of one level in order of insertion.

@@ -151,7 +151,7 @@ TEST(PlanarOdometry, ARobotAtRestStaysWhereItIs) {
   EXPECT_LT(run.endTurnError(), 0.002);
 }
 
-TEST(PlanarOdometry, PeopleWhoWalkByDoNotMoveTheRobot) {
+TEST(PlanarOdometry, PeopleWalkingByDoNotMoveTheRobot) {
   const SpinningLidar laser = makePlanarLaser();
   const Motion motion = makeFigureEight(4.0, 1.5, 40.0);
   LaserOdometry alone({}, laser.T_base_lidar, Scanner::Planar), among({}, laser.T_base_lidar, Scanner::Planar);

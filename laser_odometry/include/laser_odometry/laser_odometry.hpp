@@ -32,8 +32,8 @@ const char* toString(Reason reason);
 /// Kind of sensor.
 enum class Scanner : int {
   Spatial = 0,  ///< 3D LiDAR
-  /// Planar laser that is horizontal (urban_nav_core::isHorizontal). Only x, y and yaw of the motion are measured: walls
-  /// are assumed to be vertical, and base_link to stay on the plane of its first pose.
+  /// Planar laser that is horizontal (urban_nav_core::isHorizontal). Only x, y and yaw of the motion are measured:
+  /// walls are assumed to be vertical, and base_link to stay on the plane of its first pose.
   Planar = 1
 };
 

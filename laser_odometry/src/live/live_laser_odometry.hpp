@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "laser_odometry/laser_odometry.hpp"
@@ -28,6 +29,10 @@ class LiveLaserOdometry {
 
   /// Sets the pose of the LiDAR on the robot. A change ends the session.
   void place(const urban_nav_core::Pose& T_base_lidar);
+  /// Sets the pose as known by tf. Returns false, with a fault that names the frames, if it is unknown or that of a
+  /// planar laser that is not horizontal.
+  bool place(const std::optional<urban_nav_core::Pose>& T_base_lidar, const std::string& base,
+             const std::string& frame);
   /// Processes a sweep. The first one begins a session, as does a sweep whose reference is more than a second before
   /// the newest. Requires place().
   void process(const urban_nav_core::Sweep& sweep);

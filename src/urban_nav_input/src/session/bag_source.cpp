@@ -51,7 +51,6 @@ constexpr urban_nav_core::StampNs kLongestWait =
 
 constexpr const char* kBagStateName = "reader of bags";
 constexpr std::uint32_t kBagStateVersion = 11;
-constexpr std::array<Role, 3> kLasers = {{Role::LaserLeft, Role::LaserRight, Role::Scan}};
 constexpr urban_nav_core::StampNs kReceiptTolerance =
     25'000'000;                         // ns: images of a pair are received one after another
 constexpr std::size_t kMostSweeps = 4;  // waiting for a pair
@@ -66,7 +65,7 @@ class BagSource : public Source {
     planar_clouds_ = PlanarClouds(recording_, part_, options.topics, topics_);
     info_.has_images = topics_.find(Role::Left) && topics_.find(Role::Right);
     if (mayUsePlanarLaser()) guessScan(recording_.topicTypes(), topics_);
-    if (!info_.has_images && !topics_.find(Role::Points0) && !(mayUsePlanarLaser() && hasLaser()))
+    if (!info_.has_images && !topics_.find(Role::Points0) && !(mayUsePlanarLaser() && hasLaser(topics_)))
       throw DataError(name_,
                       "has no stereo pair of image topics: " + listImageTopics(recording_) +
                           (planar_clouds_.findings().empty()
@@ -143,10 +142,6 @@ class BagSource : public Source {
     return options_.with_sweeps && !topics_.find(Role::Points0) && (!info_.has_images || options_.with_planar_sweeps);
   }
 
-  bool hasLaser() const {
-    return std::any_of(kLasers.begin(), kLasers.end(), [this](Role role) { return topics_.find(role).has_value(); });
-  }
-
   void calibrate() {
     const ChosenTopic left = *topics_.find(Role::Left);
     const FirstImage seen = findFirstImage(recording_, left);
@@ -215,52 +210,22 @@ class BagSource : public Source {
   }
 
   void placeLasers(const urban_nav_ros::StaticTransforms& transforms) {
-    std::vector<PlacedLaser> placed;
-    for (const Role role : kLasers) {
-      const std::optional<ChosenTopic> topic = topics_.find(role);
-      const auto scan = topic ? planar_clouds_.first(recording_, topic->name) : nullptr;
-      if (!scan) continue;
-      const std::string& frame = scan->header.frame_id;
-      std::optional<urban_nav_core::Pose> T_base_laser = transforms.lookup(frames::kBaseLink, frame);
-      const std::string moving = T_base_laser ? "" : transforms.findMoving(frames::kBaseLink, frame);
-      const bool is_base = !T_base_laser && moving.empty() && role == Role::Scan && placed.empty() &&
-                           mayUsePlanarLaser() && !info_.has_images;
-      if (!moving.empty())
-        info_.notes.push_back("the transform to \"" + moving + "\" on /tf changes over time: " + topic->name +
-                              " is not used, since each scan of a laser that nods or spins needs its own mounting, "
-                              "which is not supported");
-      else if (!T_base_laser)
-        info_.notes.push_back("no static tf from base_link to \"" + frame + "\": " +
-                              (is_base ? "base_link is assumed at this laser, which is assumed to be horizontal, "
-                                       : "") +
-                              topic->name + (is_base ? "" : " is not used"));
-      if (is_base) T_base_laser.emplace();
-      if (!T_base_laser) continue;
-      info_.lasers.push_back({frame, *T_base_laser});
-      laser_topics_.push_back(topic->name);
-      placed.push_back({toString(role), topic->name, *T_base_laser});
-      sensors_.addLaser(topic->name, frame, *T_base_laser);
-      sensors_.add(placeFindings(frame, *T_base_laser));
+    const bool is_alone = mayUsePlanarLaser() && !info_.has_images;
+    const PlacedLasers placed = PlacedLasers::find(recording_, topics_, planar_clouds_, transforms, is_alone);
+    info_.notes.insert(info_.notes.end(), placed.notes.begin(), placed.notes.end());
+    for (const PlacedLaser& laser : placed.lasers) {
+      info_.lasers.push_back({laser.frame, laser.T_base_laser});
+      laser_topics_.push_back(laser.topic);
+      sensors_.addLaser(laser.topic, laser.frame, laser.T_base_laser);
+      sensors_.add(placeFindings(laser.frame, laser.T_base_laser));
     }
-    choosePlanarLaser(std::move(placed));
-  }
-
-  void choosePlanarLaser(std::vector<PlacedLaser> lasers) {
     if (!mayUsePlanarLaser()) return;
-    std::rotate(lasers.begin(),
-                std::find_if(lasers.begin(), lasers.end(),
-                             [](const PlacedLaser& laser) { return laser.role == toString(Role::Scan); }),
-                lasers.end());  // the laser of this role first
-    planar_laser_ = PlanarLaser::choose(lasers);
+    planar_laser_ = PlanarLaser::choose(placed);
     if (planar_laser_) {
       info_.planar_role = planar_laser_->role();
       info_.notes.push_back(planar_laser_->note());
-    } else if (!info_.has_images) {
-      std::string why = PlanarLaser::describeOthers(lasers);
-      if (why.empty()) why = info_.notes.back();
-      for (const Finding& finding : planar_clouds_.findings()) why += "; " + finding.text;
-      throw DataError(
-          name_, "has no images, no clouds of a 3D LiDAR, and no scans that can be used for odometry: " + why, "");
+    } else if (is_alone) {
+      throw DataError(name_, PlanarLaser::describeFailure(placed, planar_clouds_.findings()), "");
     }
   }
 
@@ -305,7 +270,8 @@ class BagSource : public Source {
     MessageSelection frames = recording_.select(leading, part_);
     info_.frames +=
         info_.has_images ? recording_.select(std::vector<std::string>{leading.front()}, part_).size() : frames.size();
-    if (frames.size() == 0) throw DataError(name_, info_.has_images ? "holds no images" : "holds no clouds or scans", "");
+    if (frames.size() == 0)
+      throw DataError(name_, info_.has_images ? "holds no images" : "holds no clouds or scans", "");
     std::tie(info_.first, info_.last) =
         stamps_are_receipts_ ? std::make_pair(frames.first(), frames.last()) : findStampSpan(frames);
     if (info_.has_images) feed_->expectRange(surveyGreyRange(recording_, leading));
@@ -508,10 +474,10 @@ class BagSource : public Source {
   std::vector<urban_nav_ros::Panorama> panoramas_;  // since the previous pair or end of a bag
   BagSweeps sweeps_in_bag_;
   std::optional<PlanarLaser> planar_laser_;  // read as sweeps
-  std::vector<SweepInput> sweeps_;  // since the previous item or end of a bag
-  std::optional<StereoFeed> feed_;  // with images
-  bool is_placed_ = false;          // the bags have the extrinsics of the camera
-  std::vector<std::string> names_;  // of the read topics
+  std::vector<SweepInput> sweeps_;           // since the previous item or end of a bag
+  std::optional<StereoFeed> feed_;           // with images
+  bool is_placed_ = false;                   // the bags have the extrinsics of the camera
+  std::vector<std::string> names_;           // of the read topics
   std::vector<BagGroup> groups_;
   std::size_t group_ = 0;  // current group
   std::shared_ptr<const BagEnd> bag_end_;

@@ -33,7 +33,7 @@ struct ScanTopic {
   float time_increment = 2e-4F;  // s
 };
 
-sensor_msgs::LaserScan scanOf(const ScanTopic& laser, int number) {
+sensor_msgs::LaserScan makeScan(const ScanTopic& laser, int number) {
   sensor_msgs::LaserScan scan;
   scan.header.stamp = ros::Time(kScansStart + kScanPeriod * number);
   scan.header.frame_id = laser.frame;
@@ -59,7 +59,7 @@ std::string writeScans(const TemporaryFolder& folder, const std::vector<ScanTopi
   bag.write("/tf_static", ros::Time(kScansStart), places);
   for (int i = 0; i < kScanCount; ++i) {
     for (const ScanTopic& laser : lasers) {
-      const sensor_msgs::LaserScan scan = scanOf(laser, i);
+      const sensor_msgs::LaserScan scan = makeScan(laser, i);
       bag.write(laser.topic, scan.header.stamp, scan);
     }
     for (const std::string side : {"left", "right"}) {
@@ -115,7 +115,7 @@ bool hasNote(const SourceInfo& info, const std::string& text) {
   return false;
 }
 
-std::string faultOf(const std::string& path) {
+std::string readFault(const std::string& path) {
   try {
     readScans(path);
   } catch (const urban_nav_core::DataError& error) {
@@ -155,12 +155,13 @@ TEST(PlanarLaser, WithoutTimesOfBeamsItsScansTakeThePeriod) {
 
 TEST(PlanarLaser, VerticalOnesAreRefusedWithTheReason) {
   const TemporaryFolder folder;
-  const std::string fault = faultOf(writeScans(folder, {{"/laser_left/scan", "laser_left", mountedAt({M_PI / 2, 0, 0})},
-                                                        {"/laser_right/scan", "laser_right", mountedAt({0, -M_PI / 2, 0})}}));
+  const std::string fault =
+      readFault(writeScans(folder, {{"/laser_left/scan", "laser_left", mountedAt({M_PI / 2, 0, 0})},
+                                    {"/laser_right/scan", "laser_right", mountedAt({0, -M_PI / 2, 0})}}));
   EXPECT_NE(fault.find("/laser_left/scan by 90 deg"), std::string::npos) << fault;
   EXPECT_NE(fault.find("/laser_right/scan by 90 deg"), std::string::npos) << fault;
   EXPECT_NE(fault.find("none of their scans measures again what an earlier one did"), std::string::npos) << fault;
-  const std::string tilted = faultOf(writeScans(folder, {{"/scan", "laser", mountedAt({0.2, 0, 0})}}));
+  const std::string tilted = readFault(writeScans(folder, {{"/scan", "laser", mountedAt({0.2, 0, 0})}}));
   EXPECT_NE(tilted.find("/scan by 11.5 deg"), std::string::npos) << tilted;
 }
 
@@ -177,7 +178,7 @@ TEST(PlanarLaser, WithoutTfItIsAssumedAtBaseLinkAndReported) {
   const ReadScans read = readScans(writeScans(folder, {{"/base_scan", "laser", std::nullopt}}));
   EXPECT_EQ(read.sweeps.size(), static_cast<std::size_t>(kScanCount));
   EXPECT_TRUE(hasNote(read.info, "base_link is assumed at this laser, which is assumed to be horizontal, /base_scan"));
-  EXPECT_NE(faultOf(writeScans(folder, {{"/laser_left/scan", "laser_left", std::nullopt}})), "");
+  EXPECT_NE(readFault(writeScans(folder, {{"/laser_left/scan", "laser_left", std::nullopt}})), "");
 }
 
 TEST(PlanarLaser, OneThatNodsIsRefusedWithTheReason) {
@@ -192,7 +193,7 @@ TEST(PlanarLaser, OneThatNodsIsRefusedWithTheReason) {
       bag.write("/tf", nod.transforms[0].header.stamp, nod);
     }
   }
-  const std::string fault = faultOf(path);
+  const std::string fault = readFault(path);
   EXPECT_NE(fault.find("the transform to \"laser\" on /tf changes over time"), std::string::npos) << fault;
   EXPECT_NE(fault.find("nods or spins"), std::string::npos) << fault;
 }

@@ -20,11 +20,11 @@ namespace urban_nav_ros {
 /// readers of recordings, `input/imu_delay` etc. of nodelets. Base of their parameter structs; the rows are those of
 /// withSensorCorrections().
 struct SensorCorrectionParameters {
-  std::string accelerometer_axes;                          // in the format of parseAxisMap()
-  double accelerometer_scale;                              // m/s2
-  double gyroscope_scale;                                  // rad/s
-  double wheels_scale;                                     // m
-  double imu_delay, wheels_delay, gps_delay;               // ms
+  std::string accelerometer_axes;                                            // in the format of parseAxisMap()
+  double accelerometer_scale;                                                // m/s2
+  double gyroscope_scale;                                                    // rad/s
+  double wheels_scale;                                                       // m
+  double imu_delay, wheels_delay, gps_delay;                                 // ms
   double laser_left_delay, laser_right_delay, scan_delay;                    // ms
   double laser_left_range_scale, laser_right_range_scale, scan_range_scale;  // m
   double laser_left_angle_scale, laser_right_angle_scale, scan_angle_scale;  // rad
@@ -150,8 +150,8 @@ std::vector<urban_nav_core::Row<P>> sensorCorrectionRows() {
   for (auto& row : detail::laserRows<P>("laser_right", &P::laser_right_delay, &P::laser_right_range_scale,
                                         &P::laser_right_angle_scale, &P::laser_right_time_scale))
     rows.push_back(std::move(row));
-  for (auto& row : detail::laserRows<P>("scan", &P::scan_delay, &P::scan_range_scale, &P::scan_angle_scale,
-                                        &P::scan_time_scale))
+  for (auto& row :
+       detail::laserRows<P>("scan", &P::scan_delay, &P::scan_range_scale, &P::scan_angle_scale, &P::scan_time_scale))
     rows.push_back(std::move(row));
   return rows;
 }

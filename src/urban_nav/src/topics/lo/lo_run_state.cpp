@@ -42,8 +42,8 @@ struct StoredLoRun {
 };
 
 void archiveMembers(Archive& archive, LoRun& run, StoredLoRun& stored) {
-  archive(run.role, run.is_planar, run.T_base_lidar, stored.sweeps, stored.poses, run.surface, run.faults, run.faults_total,
-          run.forces);
+  archive(run.role, run.is_planar, run.T_base_lidar, stored.sweeps, stored.poses, run.surface, run.faults,
+          run.faults_total, run.forces);
   archive.require(stored.poses.size() <= stored.sweeps.size(), "more poses than sweeps");
 }
 

@@ -106,8 +106,8 @@ struct SourceInfo {
   urban_nav_core::StampNs first = 0, last = 0;  ///< of these frames, if known
   std::vector<LaserInfo> lasers;                ///< with known extrinsics
   std::string planar_role;  ///< role of the horizontal planar laser whose scans are also sweeps; empty: none
-  std::vector<PanoramaCamera> panorama;         ///< cameras with images, ascending by number; empty: no panoramas
-  std::vector<InputStream> inputs;              ///< by role
+  std::vector<PanoramaCamera> panorama;  ///< cameras with images, ascending by number; empty: no panoramas
+  std::vector<InputStream> inputs;       ///< by role
   std::vector<std::pair<std::string, std::string>> topics = {};  ///< role and topic of the stereo camera; of recordings
   std::optional<urban_nav_core::StampNs> right_delay = {};       ///< ns, as input.right_delay; of recordings
   std::vector<std::string> notes;                                ///< guesses and assumptions, for the user
