@@ -26,7 +26,7 @@ struct PlacedLasers {
   std::vector<PlacedLaser> lasers;  ///< those with a mounting
   std::vector<std::string> notes;   ///< on the others, and on assumptions
 
-  /// Looks up the mountings of the lasers with scans. `assumes_base`: without tf, a laser of the role `scan` is assumed
+  /// Finds the mountings of the lasers with scans. `assumes_base`: without tf, a laser of the role `scan` is assumed
   /// to be horizontal, at base_link.
   static PlacedLasers find(Recording& recording, const BagTopics& topics, PlanarClouds& clouds,
                            const urban_nav_ros::StaticTransforms& transforms, bool assumes_base);
