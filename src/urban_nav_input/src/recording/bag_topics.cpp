@@ -21,7 +21,7 @@ struct RoleNames {
   const char* word;
   const char* topic;  // of docs/architecture.md; null: none
 };
-constexpr std::array<RoleNames, 24> kRoles = {{{Role::Left, "left", topics::kLeftImage},
+constexpr std::array<RoleNames, 25> kRoles = {{{Role::Left, "left", topics::kLeftImage},
                                                {Role::Right, "right", topics::kRightImage},
                                                {Role::LeftInfo, "left_info", topics::kLeftInfo},
                                                {Role::RightInfo, "right_info", topics::kRightInfo},
@@ -31,6 +31,7 @@ constexpr std::array<RoleNames, 24> kRoles = {{{Role::Left, "left", topics::kLef
                                                {Role::LaserRight, "laser_right", topics::kLaserRight},
                                                {Role::Truth, "truth", topics::kTruthPose},
                                                {Role::Gps, "gps", topics::kGpsFix},
+                                               {Role::Scan, "scan", topics::kScan},
                                                {Role::Points0, "points0", topics::kPoints},
                                                {Role::Points1, "points1", nullptr},
                                                {Role::Points2, "points2", nullptr},
@@ -77,7 +78,8 @@ bool fits(Role role, const std::string& type) {
     case Role::Imu: return type == "sensor_msgs/Imu";
     case Role::Wheels: return type == "nav_msgs/Odometry";
     case Role::LaserLeft:
-    case Role::LaserRight: return type == "sensor_msgs/LaserScan";
+    case Role::LaserRight:
+    case Role::Scan: return type == "sensor_msgs/LaserScan";
     case Role::Truth: return type == "geometry_msgs/PoseStamped";
     case Role::Gps: return type == "sensor_msgs/NavSatFix";
     case Role::Points0:
@@ -271,8 +273,8 @@ std::vector<std::string> splitName(const std::string& topic) {
   return parts;
 }
 
-/// Returns whether a topic name is that of clouds computed from other clouds or from images.
-bool isDerivedCloud(const std::string& topic) {
+/// Returns whether a topic name is that of clouds or scans computed from others or from images.
+bool isDerived(const std::string& topic) {
   static const std::set<std::string> kWords = {
       "map",         "submap",     "clusters", "cluster",   "obstacles", "obstacle",    "objects",   "object",
       "segmented",   "ground",     "filtered", "depth",     "camera",    "stereo",      "voxel",     "voxels",
@@ -282,15 +284,16 @@ bool isDerivedCloud(const std::string& topic) {
   return std::any_of(parts.begin(), parts.end(), [](const std::string& part) { return kWords.count(part) > 0; });
 }
 
+bool isTaken(const BagTopics& topics, const std::string& topic) {
+  return std::any_of(topics.chosen.begin(), topics.chosen.end(),
+                     [&](const auto& chosen) { return chosen.second.name == topic; });
+}
+
 /// Assigns further topics to the roles not given by the user.
 void guessPoints(const std::map<std::string, std::string>& available, BagTopics& topics) {
-  const auto isTaken = [&topics](const std::string& topic) {
-    return std::any_of(topics.chosen.begin(), topics.chosen.end(),
-                       [&](const auto& chosen) { return chosen.second.name == topic; });
-  };
   std::size_t lidar = 0;
   for (const auto& [topic, type] : available) {
-    if (!isCloudType(type) || isDerivedCloud(topic) || isTaken(topic)) continue;
+    if (!isCloudType(type) || isDerived(topic) || isTaken(topics, topic)) continue;
     while (lidar < kPointsTopics && topics.find(pointsRole(lidar))) ++lidar;
     if (lidar == kPointsTopics) return;
     topics.chosen[pointsRole(lidar)] = {topic, type};
@@ -370,6 +373,21 @@ BagTopics chooseTopics(const std::map<std::string, std::string>& available, cons
   if (topics.chosen.size() > wished.size())
     topics.notes.push_back("guessed from types and names; override with --topic ROLE:=NAME");
   return topics;
+}
+
+void guessScan(const std::map<std::string, std::string>& available, BagTopics& topics) {
+  if (topics.find(Role::Scan)) return;
+  const auto isCandidate = [&](const auto& each) {
+    return fits(Role::Scan, each.second) && !isDerived(each.first) && !isTaken(topics, each.first);
+  };
+  auto found = std::find_if(available.begin(), available.end(), [&](const auto& each) {
+    return isCandidate(each) && bare(each.first) == urban_nav_ros::topics::kScan;
+  });
+  if (found == available.end()) found = std::find_if(available.begin(), available.end(), isCandidate);
+  if (found == available.end()) return;
+  topics.chosen[Role::Scan] = {found->first, found->second};
+  topics.notes.push_back(std::string(toString(Role::Scan)) + ": " + found->first +
+                         " (guessed; override with --topic ROLE:=NAME)");
 }
 
 bool isImageType(const std::string& type) {

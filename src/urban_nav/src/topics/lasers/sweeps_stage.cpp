@@ -28,6 +28,7 @@ class SweepPass final : public SpacedPass {
 
   void process(PassItem&) override {}
   void process(const urban_nav_input::SweepInput& input) override {
+    if (input.is_planar) return;  // stored as scans
     if (!hasStored(input.role))
       TableStore<MountedLidar>(store()).put(
           {session().id, input.role, frameName(session().info, input.role), input.T_base_lidar});

@@ -22,6 +22,7 @@ enum class Role {
   LaserRight,
   Truth,
   Gps,
+  Scan,
   Points0,
   Points1,
   Points2,
@@ -70,6 +71,10 @@ struct BagTopics {
 /// map, clusters, depth images), in the order of their names. Throws UserError for an unknown role in `wishes`, or a
 /// topic that is missing or of another type. Roles without a suitable topic are absent.
 BagTopics chooseTopics(const std::map<std::string, std::string>& available, const std::vector<std::string>& wishes);
+
+/// Guesses the topic of a horizontal planar laser among those without a role, unless it has one: "scan", else the first
+/// topic of scans whose name is not that of computed ones (from depth images).
+void guessScan(const std::map<std::string, std::string>& available, BagTopics& topics);
 
 bool isImageType(const std::string& type);
 /// Returns whether messages of a type hold sweeps of 3D LiDARs: PointCloud2, or the CustomMsg of Livox.

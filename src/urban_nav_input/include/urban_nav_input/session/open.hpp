@@ -40,6 +40,9 @@ struct SourceOptions {
   PointsOptions points = {};
   /// Whether sweeps of 3D LiDARs are read. If so, a session without images but with sweeps is accepted.
   bool with_sweeps = false;
+  /// Whether the scans of a horizontal planar laser are also read as sweeps if there are images. Without images and
+  /// without clouds of a 3D LiDAR they are, if sweeps are.
+  bool with_planar_sweeps = false;
   SessionRule sessions = SessionRule::Auto;  ///< as input.sessions
 };
 /// Format of an input.
