@@ -5,6 +5,8 @@
 #include <array>
 #include <set>
 
+#include "recording/preset_topics.hpp"
+#include "recording/role_names.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/topics.hpp"
 
@@ -58,37 +60,6 @@ constexpr std::array<std::array<const char*, 2>, 7> kSides = {{{"left", "right"}
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string bare(const std::string& topic) { return topic.empty() || topic.front() != '/' ? topic : topic.substr(1); }
-
-bool fits(Role role, const std::string& type) {
-  switch (role) {
-    case Role::Left:
-    case Role::Right:
-    case Role::Panorama0:
-    case Role::Panorama1:
-    case Role::Panorama2:
-    case Role::Panorama3:
-    case Role::Panorama4: return isImageType(type);
-    case Role::LeftInfo:
-    case Role::RightInfo:
-    case Role::Panorama0Info:
-    case Role::Panorama1Info:
-    case Role::Panorama2Info:
-    case Role::Panorama3Info:
-    case Role::Panorama4Info: return type == "sensor_msgs/CameraInfo";
-    case Role::Imu: return type == "sensor_msgs/Imu";
-    case Role::Wheels: return type == "nav_msgs/Odometry";
-    case Role::LaserLeft:
-    case Role::LaserRight:
-    case Role::Scan: return type == "sensor_msgs/LaserScan";
-    case Role::Truth: return type == "geometry_msgs/PoseStamped";
-    case Role::Gps: return type == "sensor_msgs/NavSatFix";
-    case Role::Points0:
-    case Role::Points1:
-    case Role::Points2:
-    case Role::Points3: return isCloudType(type);
-  }
-  return false;
-}
 
 std::string roleWords() {
   std::string words;
@@ -301,10 +272,14 @@ void guessPoints(const std::map<std::string, std::string>& available, BagTopics&
 }
 
 /// Adds one line per role; panoramas share one.
-void noteTopics(const std::map<Role, ChosenTopic>& wished, BagTopics& topics) {
+void noteTopics(const std::map<Role, ChosenTopic>& wished, const std::map<Role, std::string>& presets,
+                BagTopics& topics) {
   const std::vector<std::size_t> panorama = topics.panorama();
   for (const auto& [role, topic] : topics.chosen) {
-    const std::string guessed = wished.count(role) != 0 ? "" : " (guessed)";
+    const auto preset = presets.find(role);
+    const std::string guessed = preset != presets.end() ? " (preset " + preset->second + ")"
+                                : wished.count(role) != 0 ? ""
+                                                          : " (guessed)";
     if (role < Role::Panorama0) topics.notes.push_back(std::string(toString(role)) + ": " + topic.name + guessed);
     else if (role == panoramaRole(panorama.front()))
       topics.notes.push_back(std::to_string(panorama.size()) + " cameras of a panorama: " + topic.name +
@@ -326,6 +301,43 @@ void guessOther(const std::map<std::string, std::string>& available, const RoleN
 }
 
 }  // namespace
+
+bool fits(Role role, const std::string& type) {
+  switch (role) {
+    case Role::Left:
+    case Role::Right:
+    case Role::Panorama0:
+    case Role::Panorama1:
+    case Role::Panorama2:
+    case Role::Panorama3:
+    case Role::Panorama4: return isImageType(type);
+    case Role::LeftInfo:
+    case Role::RightInfo:
+    case Role::Panorama0Info:
+    case Role::Panorama1Info:
+    case Role::Panorama2Info:
+    case Role::Panorama3Info:
+    case Role::Panorama4Info: return type == "sensor_msgs/CameraInfo";
+    case Role::Imu: return type == "sensor_msgs/Imu";
+    case Role::Wheels: return type == "nav_msgs/Odometry";
+    case Role::LaserLeft:
+    case Role::LaserRight:
+    case Role::Scan: return type == "sensor_msgs/LaserScan";
+    case Role::Truth: return type == "geometry_msgs/PoseStamped";
+    case Role::Gps: return type == "sensor_msgs/NavSatFix";
+    case Role::Points0:
+    case Role::Points1:
+    case Role::Points2:
+    case Role::Points3: return isCloudType(type);
+  }
+  return false;
+}
+
+std::optional<Role> roleFromWord(const std::string& word) {
+  const auto names =
+      std::find_if(kRoles.begin(), kRoles.end(), [&](const RoleNames& each) { return word == each.word; });
+  return names == kRoles.end() ? std::nullopt : std::optional(names->role);
+}
 
 const char* toString(Role role) {
   return std::find_if(kRoles.begin(), kRoles.end(), [role](const RoleNames& names) { return names.role == role; })
@@ -354,7 +366,11 @@ std::optional<ChosenTopic> BagTopics::find(Role role) const {
 
 BagTopics chooseTopics(const std::map<std::string, std::string>& available, const std::vector<std::string>& wishes) {
   BagTopics topics;
-  for (const std::string& wish : wishes) take(available, wish, topics);
+  for (const std::string& wish : wishes)
+    if (!findPresetWish(wish)) take(available, wish, topics);
+  std::map<Role, std::string> presets;
+  for (const std::string& wish : wishes)
+    if (const auto preset = findPresetWish(wish)) takePreset(available, *preset, topics, presets);
   const std::map<Role, ChosenTopic> wished = topics.chosen;
   guessPanorama(available, topics);
   const std::map<std::string, std::string> others = withoutPanorama(available, topics);
@@ -369,7 +385,7 @@ BagTopics chooseTopics(const std::map<std::string, std::string>& available, cons
   guessOther(available, kRoles[8], {"ground_truth", "groundtruth"}, topics);
   guessOther(available, kRoles[9], {"gps", "fix", "gnss"}, topics);
   guessPoints(available, topics);
-  noteTopics(wished, topics);
+  noteTopics(wished, presets, topics);
   if (topics.chosen.size() > wished.size())
     topics.notes.push_back("guessed from types and names; override with --topic ROLE:=NAME");
   return topics;

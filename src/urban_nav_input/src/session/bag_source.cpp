@@ -184,8 +184,8 @@ class BagSource : public Source {
 
   void place() {
     urban_nav_ros::StaticTransforms transforms = recording_.transforms();
-    giveTransforms(options_.transforms, transforms);
-    for (const std::string& given : options_.transforms) info_.notes.push_back("--transform " + given);
+    for (std::string& sentence : giveTransforms(options_.transforms, transforms))
+      info_.notes.push_back(std::move(sentence));
     sensors_.add(readerFindings(transforms.faults()));
     sensors_.add(topicFindings(recording_.topicTypes(), topics_));
     sensors_.add(planar_clouds_.findings());
