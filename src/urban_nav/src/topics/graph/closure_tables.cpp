@@ -32,7 +32,7 @@ loop_metric::Evidence readEvidence(const urban_nav_core::MetricClosure& closure)
 std::string describeNearest(const loop_metric::Evidence& evidence) {
   const auto nearest = loop_metric::nearestTest(evidence);
   if (!nearest) return "";
-  return (nearest->passed ? "" : "failed: ") + describe(*nearest);
+  return (nearest->passed ? "" : "failed: ") + loop_metric::describe(*nearest);
 }
 
 std::string whyAnchor(std::int64_t number) { return "why-" + std::to_string(number); }
