@@ -22,11 +22,12 @@ constexpr const char* kLabelsSeal = "labels of a map";
 constexpr std::uint32_t kLabelsVersion = 1;
 constexpr std::size_t kLabelBytes = 3;  // class, probability, unsure
 
-/// Returns the class of a label in LAS files: those of the ASPRS, and 64 for vehicles.
+/// Returns the class of a label in LAS files: those of the ASPRS, and 64 for vehicles. All ground has one class there;
+/// the extra byte distinguishes its kinds.
 std::uint8_t lasClassification(SceneClass label) {
   switch (label) {
-    case SceneClass::Paved: return 11;    // road surface
-    case SceneClass::Grass: return 3;     // low vegetation
+    case SceneClass::Paved:
+    case SceneClass::Grass:
     case SceneClass::DirtPath: return 2;  // ground
     case SceneClass::TexturedWall:
     case SceneClass::SmoothWall:
