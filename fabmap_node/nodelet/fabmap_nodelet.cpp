@@ -153,14 +153,14 @@ void FabmapStage::subscribeOdometry() {
   options.queue = nodelet_.queue_size;
   options.is_paused = false;
   node_.subscribeInput<nav_msgs::Odometry>(
-      urban_nav_ros::topics::kVoOdometry, options,
+      urban_nav_ros::topics::kOdometry, options,
       [](const nav_msgs::OdometryConstPtr& message) -> std::optional<OdometryPose> {
         const auto T_odom_base = urban_nav_ros::toPose(message->pose.pose);
         if (!T_odom_base) return std::nullopt;
         return OdometryPose{{urban_nav_ros::toStampNs(message->header.stamp), *T_odom_base}, message->header.frame_id};
       });
   options.is_monitored = false;
-  node_.subscribeInput<urban_nav_msgs::RelativePose>(urban_nav_ros::topics::kVoRelativePose, options,
+  node_.subscribeInput<urban_nav_msgs::RelativePose>(urban_nav_ros::topics::kRelativePose, options,
                                                      [](const urban_nav_msgs::RelativePoseConstPtr& message) {
                                                        return urban_nav_ros::toOdometrySession(message->session);
                                                      });

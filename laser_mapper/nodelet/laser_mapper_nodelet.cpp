@@ -24,6 +24,7 @@
 #include "urban_nav_ros/point_cloud.hpp"
 #include "urban_nav_ros/robot_topics.hpp"
 #include "urban_nav_ros/stage_nodelet.hpp"
+#include "urban_nav_ros/sweep_feeds.hpp"
 #include "urban_nav_ros/topics.hpp"
 
 namespace laser_mapper {
@@ -66,7 +67,7 @@ class LaserMapperStage {
   static constexpr const char* name = "laser_mapper";
   static constexpr const char* topic = "laser map";
   using Input = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr,
-                             urban_nav_core::StampedPose, urban_nav_core::SessionStep, urban_nav_core::GraphUpdate,
+                             sensor_msgs::PointCloud2ConstPtr, urban_nav_core::StampedPose, urban_nav_core::SessionStep, urban_nav_core::GraphUpdate,
                              urban_nav_core::MetricClosure>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
@@ -81,6 +82,7 @@ class LaserMapperStage {
  private:
   using Clock = std::chrono::steady_clock;
   void addScan(const sensor_msgs::LaserScan& message);
+  void addSweep(const std::string& frame, const urban_nav_core::Sweep& sweep);
   void publish();
   void publishCloud(const std::vector<MapPoint>& points);
   void publishTiles();
@@ -98,6 +100,9 @@ class LaserMapperStage {
   ros::Publisher cloud_, tiles_, quality_, constraints_;
   std::uint32_t tile_subscribers_ = 0;
   std::string unplaced_, store_fault_;
+  urban_nav_ros::SweepFeeds sweeps_{
+      {[this](const std::string& frame, const urban_nav_core::Sweep& sweep) { addSweep(frame, sweep); },
+       [this] { node_.gate().countInvalid(); }}};
   urban_nav_live::BeamFaults beams_;
   bool changed_ = false, are_constraints_due_ = false;
   Clock::time_point due_, constraints_due_, tiles_sent_ = Clock::now();
@@ -136,6 +141,7 @@ void LaserMapperStage::handle(Input& input) {
   try {
     if (const auto* transforms = std::get_if<tf2_msgs::TFMessageConstPtr>(&input)) transforms_.add(**transforms);
     else if (const auto* scan = std::get_if<sensor_msgs::LaserScanConstPtr>(&input)) addScan(**scan);
+    else if (const auto* cloud = std::get_if<sensor_msgs::PointCloud2ConstPtr>(&input)) sweeps_.add(*cloud);
     else if (const auto* odometry = std::get_if<urban_nav_core::StampedPose>(&input)) map_->addOdometry(*odometry);
     else if (const auto* update = std::get_if<urban_nav_core::GraphUpdate>(&input)) map_->addGraph(*update);
     else if (const auto* closure = std::get_if<urban_nav_core::MetricClosure>(&input)) map_->addClosure(*closure);
@@ -157,6 +163,15 @@ void LaserMapperStage::addScan(const sensor_msgs::LaserScan& message) {
     unplaced_ = T_base_laser ? "" : frame;
   }
   map_->addScan(frame, urban_nav_core::toScan(*planar));
+}
+
+void LaserMapperStage::addSweep(const std::string& frame, const urban_nav_core::Sweep& sweep) {
+  if (!map_->isPlaced(frame)) {
+    const auto T_base_lidar = transforms_.lookup(nodelet_.base_frame, frame);
+    if (T_base_lidar) map_->placeLidar(frame, *T_base_lidar);
+    unplaced_ = T_base_lidar ? "" : frame;
+  }
+  map_->addSweep(frame, sweep);
 }
 
 bool LaserMapperStage::idle() {
@@ -259,7 +274,8 @@ urban_nav_live::StageReport LaserMapperStage::report() const {
   };
   set(MapFault::NotStored, store_fault_);
   set(MapFault::NoOdometry, odometry);
-  set(MapFault::NoLasers, lasers);
+  set(MapFault::NoLasers, sweeps_.fault());
+  if (map_->counts().sweeps == 0) set(MapFault::NoLasers, lasers);
   if (!unplaced_.empty()) set(MapFault::NoLaserPlace, "no static tf from " + nodelet_.base_frame + " to " + unplaced_);
   urban_nav_live::StageReport report;
   if (fault != MapFault::None) report.status = {urban_nav_core::Health::Degraded, static_cast<int>(fault), sentence};
@@ -267,7 +283,8 @@ urban_nav_live::StageReport LaserMapperStage::report() const {
   report.is_error = fault == MapFault::NotStored;
   const LiveMap::Counts& counts = map_->counts();
   report.add("scans", counts.scans);
-  report.add("scans of lasers without a pose on the robot", counts.scans_unplaced);
+  report.add("sweeps stored", counts.sweeps);
+  report.add("scans and sweeps of lasers without a pose on the robot", counts.scans_unplaced);
   report.add("poses of odometry", counts.poses);
   report.add("revisions of the graph missed", counts.updates_missed);
   beams_.addTo(report);

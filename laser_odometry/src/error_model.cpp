@@ -7,16 +7,17 @@
 namespace laser_odometry {
 namespace {
 
-constexpr double kBlock = 4.0;            // m: size of surfaces with common errors
-constexpr double kApart = 1e6;            // m, between the blocks of different orientations
-constexpr double kMemory = 20.0;          // sweeps
-constexpr double kLeast = 0.02;           // lower limit of both factors
-constexpr double kEndFloor = 5e-4;        // m
-constexpr double kEndTurnFloor = 6e-5;    // rad: 0.03 deg, elevation error of a ring, averaged over 64 rings
-constexpr double kDriftFloor = 2e-4;      // of the length: 0.02 %, a tenth of the range scale error stated by
-                                          // manufacturers
-constexpr double kDriftTurnFloor = 2e-5;  // rad/m
-constexpr std::size_t kFewest = 30;       // cells measured in two sweeps, required for a comparison
+constexpr double kBlock = 4.0;                  // m: size of surfaces with common errors
+constexpr double kApart = 1e6;                  // m, between the blocks of different orientations
+constexpr double kMemory = 20.0;                // sweeps
+constexpr double kLeast = 0.02;                 // lower limit of both factors
+constexpr double kEndFloor = 5e-4;              // m
+constexpr double kEndTurnFloor = 6e-5;          // rad: 0.03 deg, elevation error of a ring, averaged over 64 rings
+constexpr double kDriftFloor = 2e-4;            // of the length: 0.02 %, a tenth of the range scale error stated by
+                                                // manufacturers
+constexpr double kDriftTurnFloor = 2e-5;        // rad/m
+constexpr std::size_t kFewest = 30;             // cells measured in two sweeps, required for a comparison
+constexpr std::size_t kFewestPlanarCells = 15;  // of planar motion, with half as many coordinates
 
 /// Matches of one sweep in a cell.
 struct CellSum {
@@ -79,7 +80,7 @@ void ErrorModel::observe(const std::vector<PatchMatch>& matches, std::int32_t sw
     cell.residual_sweep = sweep;
   }
   if (weights > 0.0) age_ = std::max(1.0, ages / weights);
-  if (pairs < kFewest) return;
+  if (pairs < (space_ == MotionSpace::Planar ? kFewestPlanarCells : kFewest)) return;
   double passing = 0.0, lasting = 0.0;
   for (const BlockSum& block : blocks) {
     passing += 0.5 * block.change * block.change;

@@ -16,6 +16,9 @@ namespace laser_odometry {
 /// (docs/derivations/laser_odometry.md).
 class ErrorModel {
  public:
+  /// `space`: of the motions.
+  explicit ErrorModel(MotionSpace space = MotionSpace::Spatial) : space_(space) {}
+
   /// Observes the matches of a sweep and stores each cell's mean residual for the next one.
   void observe(const std::vector<PatchMatch>& matches, std::int32_t sweep);
 
@@ -34,6 +37,7 @@ class ErrorModel {
   void archive(urban_nav_core::Archive& archive);
 
  private:
+  MotionSpace space_;
   double passing_ = 1.0, lasting_ = 1.0, age_ = 1.0;
   std::int32_t observed_ = 0;
 };

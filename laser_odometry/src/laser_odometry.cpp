@@ -10,12 +10,12 @@ class LaserOdometry::Implementation : public Pipeline {
   using Pipeline::Pipeline;
 };
 
-LaserOdometry::LaserOdometry(const Parameters& parameters, const urban_nav_core::Pose& T_base_lidar)
-    : implementation_(std::make_unique<Implementation>(parameters, T_base_lidar)) {}
+LaserOdometry::LaserOdometry(const Parameters& parameters, const urban_nav_core::Pose& T_base_lidar, Scanner scanner)
+    : implementation_(std::make_unique<Implementation>(parameters, T_base_lidar, scanner)) {}
 
 LaserOdometry::LaserOdometry(const Parameters& parameters, const urban_nav_core::Pose& T_base_lidar,
-                             std::string_view state)
-    : LaserOdometry(parameters, T_base_lidar) {
+                             std::string_view state, Scanner scanner)
+    : LaserOdometry(parameters, T_base_lidar, scanner) {
   implementation_->restore(state);
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 
 namespace laser_odometry {
 namespace {
@@ -74,6 +75,25 @@ Plane fitPlane(const Moments& moments, const Vector3d& origin) {
   if (!plane.usable) return plane;
   plane.normal_variance = ((plane.variance + kBeamVariance) / moments.count + kLineVariance) / plane.width;
   plane.normal = solver.eigenvectors().col(0);
+  plane.mean = origin + moments.mean();
+  return plane;
+}
+
+Plane fitWall(const Moments& moments, const Vector3d& origin) {
+  Plane plane;
+  if (moments.count < kLeastPoints) return plane;
+  const Matrix3d C = moments.covariance();
+  const double half = 0.5 * (C(0, 0) - C(1, 1)), mean = 0.5 * (C(0, 0) + C(1, 1));
+  const double spread = std::hypot(half, C(0, 1));
+  const double angle = 0.5 * std::atan2(C(0, 1), half);  // of the wall
+  plane.variance = std::max(0.0, mean - spread);
+  plane.width = plane.length = mean + spread;
+  plane.narrow = Vector3d(std::cos(angle), std::sin(angle), 0.0);
+  plane.usable = plane.width > kLeastRatio * plane.variance && plane.width > 0.0;
+  if (!plane.usable) return plane;
+  // Errors of the beams are independent, unlike those of a line of a 3D LiDAR, which has a common error of its ring.
+  plane.normal_variance = (plane.variance + kBeamVariance) / (moments.count * plane.width);
+  plane.normal = Vector3d(-plane.narrow.y(), plane.narrow.x(), 0.0);
   plane.mean = origin + moments.mean();
   return plane;
 }

@@ -63,4 +63,8 @@ bool isOutside(const Plane& plane, const Vector3d& p);
 /// along the narrower direction of the plane is below 3.2 times that along the normal, as for a single line of beams.
 Plane fitPlane(const Moments& moments, const Vector3d& origin);
 
+/// Fits a plane parallel to z to the x and y of points, as of a wall cut by a horizontal scan. Not usable with fewer
+/// than six points, or if they spread along the plane by less than 3.2 times their spread across it.
+Plane fitWall(const Moments& moments, const Vector3d& origin);
+
 }  // namespace laser_odometry

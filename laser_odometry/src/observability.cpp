@@ -20,6 +20,7 @@ constexpr std::size_t kManyRows = 200;
 // Minimum effective number of patches of a constrained direction, and its share of all.
 constexpr double kLeastPatches = 6.0;
 constexpr double kLeastShare = 0.002;
+constexpr int kInPlane[] = {0, 1, 5};  // coordinates of planar motion: x, y, yaw
 
 using urban_nav_core::SmallEigen;
 
@@ -34,7 +35,38 @@ Vector6d scaling(double lever) {
 Matrix6d projectorOntoObserved(const FreeSubspace& free) {
   Matrix6d P = Matrix6d::Identity();
   for (const Vector6d& v : free.directions) P -= v * v.transpose();
-  return P;
+  return free.space == MotionSpace::Planar ? toPlanar(P) : P;
+}
+
+/// Returns the projector onto the estimated coordinates.
+Matrix6d projectorOntoSpace(MotionSpace space) {
+  return space == MotionSpace::Planar ? toPlanar(Matrix6d(Matrix6d::Identity())) : Matrix6d(Matrix6d::Identity());
+}
+
+/// A direction with its mean square over the rows.
+struct Candidate {
+  double value = 0.0;
+  Vector6d direction = Vector6d::Zero();
+};
+
+/// Returns the eigenvectors of a matrix within the space, weakest first.
+std::vector<Candidate> findCandidates(const Matrix6d& A, MotionSpace space) {
+  std::vector<Candidate> candidates;
+  if (space == MotionSpace::Spatial) {
+    const SmallEigen<6> eigen = urban_nav_core::smallEigen<6>(A);
+    for (int i = 0; i < 6; ++i) candidates.push_back({eigen.values[i], eigen.vectors.col(i)});
+    return candidates;
+  }
+  Eigen::Matrix3d part;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) part(i, k) = A(kInPlane[i], kInPlane[k]);
+  const SmallEigen<3> eigen = urban_nav_core::smallEigen<3>(part);
+  for (int i = 0; i < 3; ++i) {
+    Candidate candidate{eigen.values[i], Vector6d::Zero()};
+    for (int k = 0; k < 3; ++k) candidate.direction[kInPlane[k]] = eigen.vectors(k, i);
+    candidates.push_back(candidate);
+  }
+  return candidates;
 }
 
 /// Returns the inverse of the scaled information on the observed directions, zero on the free ones.
@@ -78,16 +110,20 @@ Vector6d PlaneRow::jacobian() const {
   return J;
 }
 
-FreeSubspace findFreeSubspace(const std::vector<PlaneRow>& rows) {
+FreeSubspace findFreeSubspace(const std::vector<PlaneRow>& rows, MotionSpace space) {
   FreeSubspace free;
+  free.space = space;
   double total = 0.0, levers = 0.0;
   for (const PlaneRow& row : rows) {
     total += row.weight;
-    levers += row.weight * row.lever.cross(row.normal).squaredNorm();
+    // In a round room the yaw has no lever but noise of the normals, by which it must not be scaled.
+    levers += row.weight *
+              (space == MotionSpace::Planar ? row.lever : Eigen::Vector3d(row.lever.cross(row.normal))).squaredNorm();
   }
   if (!(total > 0.0)) {
-    for (int i = 0; i < 6; ++i) free.directions.push_back(Vector6d::Unit(i));
-    free.evidence.assign(6, 0.0);
+    for (int i = 0; i < 6; ++i)
+      if (projectorOntoSpace(space)(i, i) > 0.0) free.directions.push_back(Vector6d::Unit(i));
+    free.evidence.assign(free.directions.size(), 0.0);
     return free;
   }
   free.lever = std::max(1e-3, std::sqrt(levers / total));
@@ -97,15 +133,13 @@ FreeSubspace findFreeSubspace(const std::vector<PlaneRow>& rows) {
     const Vector6d j = s.cwiseProduct(row.jacobian());
     A.noalias() += row.weight * j * j.transpose();
   }
-  const SmallEigen<6> eigen = urban_nav_core::smallEigen<6>(A);
   // Weights relative to the mean: a patch of average weight counts as one.
   const double usual = total / static_cast<double>(rows.size());
   const double fewest = std::max(kLeastPatches, kLeastShare * static_cast<double>(rows.size()));
-  for (int i = 0; i < 6; ++i) {
-    const Vector6d direction = eigen.vectors.col(i);
+  for (const auto& [value, direction] : findCandidates(A, space)) {
     double patches = 0.0, squares = 0.0;
-    if (eigen.values[i] > kSurelyObserved * total && rows.size() > kManyRows) {
-      free.evidence.push_back(eigen.values[i] / usual);
+    if (value > kSurelyObserved * total && rows.size() > kManyRows) {
+      free.evidence.push_back(value / usual);
       continue;
     }
     const Eigen::Vector3d shift = direction.head<3>(), turn = direction.tail<3>() / free.lever;
@@ -137,7 +171,7 @@ Matrix6d covarianceOfObserved(const Matrix6d& H, const FreeSubspace& free, const
   const Vector6d s = scaling(free.lever);
   Matrix6d C = inverseOnObserved(H, free);
   const Vector6d up = s.cwiseInverse();
-  const Matrix6d Q = Matrix6d::Identity() - projectorOntoObserved(free);
+  const Matrix6d Q = projectorOntoSpace(free.space) - projectorOntoObserved(free);
   C += Q * (up.asDiagonal() * prior * up.asDiagonal()) * Q;
   C = s.asDiagonal() * C * s.asDiagonal();
   return 0.5 * (C + C.transpose());

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "urban_nav_core/geometry/se3.hpp"
+#include "motion_space.hpp"
 
 namespace laser_odometry {
 
@@ -23,9 +23,11 @@ struct PlaneRow {
 
 /// Unobserved directions of a pose. Rotations are scaled by `lever`, m: tangent (rho, lever phi).
 struct FreeSubspace {
-  double lever = 1.0;                ///< root mean square lever of the rotations, m
-  std::vector<Vector6d> directions;  ///< orthonormal, scaled tangent (m)
-  std::vector<double> evidence;      ///< effective number of patches of all six directions, weakest first
+  /// Root mean square lever of the rotations, m; of planar motion, distance of the patches.
+  double lever = 1.0;
+  std::vector<Vector6d> directions;          ///< orthonormal, scaled tangent (m)
+  std::vector<double> evidence;              ///< effective number of patches of all estimated directions, weakest first
+  MotionSpace space = MotionSpace::Spatial;  ///< coordinates outside of it are neither free nor observed
 
   bool isFree() const { return !directions.empty(); }
   /// Returns whether one of the directions is mainly a translation.
@@ -38,12 +40,14 @@ struct FreeSubspace {
 /// Finds the directions constrained by fewer than a handful of patches. A patch constrains a direction only if the
 /// angle between its plane and the displacement exceeds the uncertainty of its normal: noise of the normals is not
 /// information (docs/derivations/laser_odometry.md). Invariant to the scale of the weights.
-FreeSubspace findFreeSubspace(const std::vector<PlaneRow>& rows);
+FreeSubspace findFreeSubspace(const std::vector<PlaneRow>& rows, MotionSpace space = MotionSpace::Spatial);
 
-/// Solves H d = g in the observed directions; `along_free`: d along the free ones (unscaled tangent).
+/// Solves H d = g in the observed directions; `along_free`: d along the free ones (unscaled tangent). Zero outside of
+/// the space.
 Vector6d solveObserved(const Matrix6d& H, const Vector6d& g, const FreeSubspace& free, const Vector6d& along_free);
 
-/// Returns the covariance: inverse of H in the observed directions, `prior` along the free ones.
+/// Returns the covariance: inverse of H in the observed directions, `prior` along the free ones, zero outside of the
+/// space.
 Matrix6d covarianceOfObserved(const Matrix6d& H, const FreeSubspace& free, const Matrix6d& prior);
 
 }  // namespace laser_odometry

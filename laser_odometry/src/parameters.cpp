@@ -56,6 +56,16 @@ const Table<Parameters>& table() {
           {"degraded_patches", &P::degraded_patches, "", std::int64_t{100}, std::int64_t{6}, std::int64_t{100000}, {},
            "Number of matched surface patches below which a sweep is DEGRADED.",
            "docs/derivations/laser_odometry.md", {}, Audience::Experts},
+          {"planar_cell", &P::planar_cell, "m", 0.2, 0.05, 5.0, {}, "As cell, for planar lasers.",
+           "laser_odometry/bench, planar"},
+          {"planar_min_range", &P::planar_min_range, "m", 0.1, 0.0, 100.0, {}, "As min_range, for planar lasers.",
+           "docs/derivations/laser_odometry.md", {}, Audience::Experts},
+          {"floor_height", &P::floor_height, "m", 0.01, 1e-4, 10.0, {},
+           "Planar lasers: standard deviation of the floor's height after 1 m; grows with the root of the distance.",
+           "docs/derivations/laser_odometry.md", {}, Audience::Experts},
+          {"floor_tilt", &P::floor_tilt, "deg", 0.5, 0.01, 45.0, {},
+           "Planar lasers: standard deviation of the robot's roll and pitch.", "docs/derivations/laser_odometry.md",
+           {}, Audience::Experts},
       });
   return rows;
 }

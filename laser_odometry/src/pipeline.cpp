@@ -32,11 +32,26 @@ constexpr double kStartGain = 1.005;     // required gain of the fit over a stan
 
 }  // namespace
 
-Pipeline::Pipeline(const Parameters& parameters, const Pose& T_base_lidar)
-    : parameters_(parameters),
+Pipeline::Pipeline(const Parameters& parameters, const Pose& T_base_lidar, Scanner scanner)
+    : scanner_(scanner),
+      space_(scanner == Scanner::Planar ? MotionSpace::Planar : MotionSpace::Spatial),
+      parameters_(toScannerParameters(parameters, space_)),
       T_base_lidar_(T_base_lidar),
-      map_(parameters.cell, parameters.levels, kReach * parameters.cell),
-      motion_(parameters) {}
+      map_(parameters_.cell, parameters_.levels, kReach * parameters_.cell, space_),
+      motion_(parameters_),
+      errors_(space_) {
+  if (space_ == MotionSpace::Planar) end_covariance_ = floorOfPose(parameters_);
+}
+
+SweepPoints Pipeline::collect(const Sweep& sweep) const {
+  PointsRule rule;
+  rule.min_range = parameters_.min_range;
+  rule.max_range = parameters_.max_range;
+  rule.longest_s = kLongestSweep;
+  rule.length = kSegment * parameters_.cell;
+  rule.space = space_;
+  return collectPoints(sweep, T_base_lidar_, rule);
+}
 
 LaserPose Pipeline::process(const Sweep& sweep, const std::optional<MotionPrior>& prior) {
   if (started_ && sweep.reference <= stamp_) return drop(sweep);
@@ -44,8 +59,7 @@ LaserPose Pipeline::process(const Sweep& sweep, const std::optional<MotionPrior>
   LaserPose result;
   result.stamp = sweep.reference;
   const Prediction prediction = predict(sweep, prior);
-  const SweepPoints points = collectPoints(sweep, T_base_lidar_, parameters_.min_range, parameters_.max_range,
-                                           kLongestSweep, kSegment * parameters_.cell);
+  const SweepPoints points = collect(sweep);
   result.statistics.points = points.valid;
   result.statistics.near = points.near;
   result.statistics.deskewed = parameters_.deskew && points.last_s > points.first_s;
@@ -55,7 +69,8 @@ LaserPose Pipeline::process(const Sweep& sweep, const std::optional<MotionPrior>
   if (map_.empty()) {
     continueByPrediction(prediction, result);
     beginMap(points, knownMotion());
-    result.status = started_ ? statusOfRestart(points, parameters_) : statusOfStart(points, parameters_);
+    result.status =
+        started_ ? statusOfRestart(points, parameters_, space_) : statusOfStart(points, parameters_, space_);
   } else {
     const Aligned aligned = first_.used == 0 ? align(points, prediction, T_odom_base_ * prediction.T_last_now)
                                              : alignSecond(points, prediction);
@@ -72,6 +87,8 @@ LaserPose Pipeline::process(const Sweep& sweep, const std::optional<MotionPrior>
   if (started_) accumulate(T_odom_last, result.step);
   result.T_odom_base = T_odom_base_;
   result.covariance = covariance_;
+  if (space_ == MotionSpace::Planar && result.status.health != Health::Lost)
+    result.status = statusOfPlanar(std::move(result.status));
   result.step.status = result.status;
   result.statistics.map_cells = static_cast<int>(map_.size());
   if (started_)
@@ -116,10 +133,15 @@ Pipeline::Prediction Pipeline::predict(const Sweep& sweep, const std::optional<M
     prediction.T_last_now = prior->step.T_from_to;
     prediction.covariance = prior->step.covariance;
     prediction.is_measured = true;
-    return prediction;
+  } else {
+    prediction.T_last_now = motion_.predict(prediction.seconds);
+    prediction.covariance = motion_.predictionCovariance(prediction.seconds);
   }
-  prediction.T_last_now = motion_.predict(prediction.seconds);
-  prediction.covariance = motion_.predictionCovariance(prediction.seconds);
+  if (space_ == MotionSpace::Planar) {
+    prediction.T_last_now = toPlanar(prediction.T_last_now);
+    prediction.covariance = toPlanar(prediction.covariance) + floorOfPose(parameters_) +
+                            floorOfStep(parameters_, prediction.T_last_now.t().norm());
+  }
   return prediction;
 }
 
@@ -148,6 +170,7 @@ Pipeline::Aligned Pipeline::align(const SweepPoints& points, const Prediction& p
   const Pose predicted = T_odom_base_ * prediction.T_last_now;
   aligned.registration.T_odom_base = guess;
   RegistrationOptions options;
+  options.space = space_;
   options.iterations = parameters_.iterations;
   options.surface_sigma = parameters_.surface_sigma;
   options.coarse_level = prediction.is_measured ? 0 : 1;
@@ -182,6 +205,7 @@ Pipeline::Aligned Pipeline::align(const SweepPoints& points, const Prediction& p
 Pose Pipeline::searchStart(const SweepPoints& points, const Prediction& prediction) {
   const std::vector<Patch> patches = makePatches(deskew(points, {}), parameters_.cell);
   RegistrationOptions options;
+  options.space = space_;
   options.iterations = 6;
   options.surface_sigma = parameters_.surface_sigma;
   options.coarse_level = 0;
@@ -258,15 +282,19 @@ void Pipeline::accept(const Aligned& aligned, const SweepPoints& points, const P
   to_odom.topLeftCorner<3, 3>() = R;
   to_odom.bottomRightCorner<3, 3>() = R;
   const Matrix6d prior = to_odom * prediction.covariance * to_odom.transpose();
+  const bool is_planar = space_ == MotionSpace::Planar;
   const Matrix6d unit = covarianceOfObserved(registration.information, registration.free, Matrix6d::Zero());
   const Matrix6d along_free = covarianceOfObserved(registration.information, registration.free, prior) - unit;
   const Matrix6d floor = ErrorModel::endFloor();
-  const Matrix6d end = errors_.passing() * unit + floor + skewCovariance(sweep);
+  Matrix6d end = errors_.passing() * unit + floor + skewCovariance(sweep);
   const double age = errors_.age();
   const double share = 2.0 / (2.0 * age + 1.0);
   const double length = step.T_b_c.t().norm();
-  const Matrix6d drift =
-      errors_.lasting() / age * unit + share * share * end + along_free + ErrorModel::driftFloor(length);
+  Matrix6d drift = errors_.lasting() / age * unit + share * share * end + along_free + ErrorModel::driftFloor(length);
+  if (is_planar) {
+    end = toPlanar(end) + floorOfPose(parameters_);
+    drift = toPlanar(drift) + floorOfStep(parameters_, length);
+  }
   result.step.drift_covariance = urban_nav_core::transformCovariance(step.J2, drift);
   result.step.covariance = urban_nav_core::transformCovariance(step.J1, end_covariance_) +
                            urban_nav_core::transformCovariance(step.J2, end + drift);
@@ -305,7 +333,8 @@ void Pipeline::continueByPrediction(const Prediction& prediction, LaserPose& res
   result.step.drift_covariance = started_ ? prediction.covariance : Matrix6d(Matrix6d::Zero());
   T_odom_base_ = T_odom_base_ * prediction.T_last_now;
   if (started_) motion_.update(prediction.T_last_now, prediction.seconds, prediction.is_measured);
-  for (int i = 0; started_ && i < 6; ++i) result.free_directions.push_back(Vector6d::Unit(i));
+  const FreeSubspace all = findFreeSubspace({}, space_);
+  if (started_) result.free_directions = all.directions;
 }
 
 void Pipeline::restartIfLost(const SweepPoints& points, LaserPose& result) {

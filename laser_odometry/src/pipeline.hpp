@@ -9,6 +9,7 @@
 #include "error_model.hpp"
 #include "laser_odometry/laser_odometry.hpp"
 #include "motion.hpp"
+#include "planar_floor.hpp"
 #include "registration.hpp"
 #include "surface_map.hpp"
 #include "sweep_points.hpp"
@@ -21,7 +22,7 @@ constexpr double kFirstCovariance = 1e-12;
 /// Odometry pipeline: prediction, deskewing, registration, covariance, map update.
 class Pipeline {
  public:
-  Pipeline(const Parameters& parameters, const Pose& T_base_lidar);
+  Pipeline(const Parameters& parameters, const Pose& T_base_lidar, Scanner scanner);
 
   LaserPose process(const urban_nav_core::Sweep& sweep, const std::optional<MotionPrior>& prior);
   std::vector<MapPoint> localMap() const;
@@ -46,6 +47,7 @@ class Pipeline {
 
   Prediction predict(const urban_nav_core::Sweep& sweep, const std::optional<MotionPrior>& prior) const;
   SweepMotion knownMotion() const;
+  SweepPoints collect(const urban_nav_core::Sweep& sweep) const;
   void beginMap(const SweepPoints& points, const SweepMotion& motion);
   Pose searchStart(const SweepPoints& points, const Prediction& prediction);
   /// Motions within the first two sweeps of a map.
@@ -71,7 +73,9 @@ class Pipeline {
   std::string fingerprint() const;
   void archive(urban_nav_core::Archive& archive);
 
-  Parameters parameters_;
+  const Scanner scanner_;
+  const MotionSpace space_;
+  Parameters parameters_;  ///< those of the scanner: see toScannerParameters()
   Pose T_base_lidar_;
 
   SurfaceMap map_;

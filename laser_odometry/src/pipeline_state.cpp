@@ -65,15 +65,17 @@ bool Pipeline::isPlausible(const Registration& registration, const Prediction& p
 
 std::vector<MapPoint> Pipeline::localMap() const {
   std::vector<MapPoint> points;
+  // Points of a planar laser are projected to z = 0.
+  const Vector3d lift(0.0, 0.0, space_ == MotionSpace::Planar ? T_base_lidar_.t().z() : 0.0);
   for (int level = 0; level < map_.levels(); ++level) {
     for (const MapCell& cell : map_.cells(level)) {
       // Replaced by a plane of a finer level at the same position.
       bool is_covered = false;
       for (int finer = 0; finer < level && !is_covered; ++finer) is_covered = map_.hasPlane(cell, finer);
-      const Plane plane = cell.is_current ? cell.plane : cell.fit();
+      const Plane plane = map_.findPlane(cell);
       if (is_covered || !plane.usable) continue;
-      points.push_back(
-          {plane.mean.cast<float>(), plane.normal.cast<float>(), static_cast<float>(std::sqrt(plane.variance))});
+      points.push_back({Vector3d(plane.mean + lift).cast<float>(), plane.normal.cast<float>(),
+                        static_cast<float>(std::sqrt(plane.variance))});
     }
   }
   return points;
@@ -85,6 +87,7 @@ std::string Pipeline::fingerprint() const {
   urban_nav_core::Archive archive;
   Pose place = T_base_lidar_;
   archive(place);
+  if (scanner_ != Scanner::Spatial) text += "scanner=" + std::to_string(static_cast<int>(scanner_)) + ";";
   return text + archive.take();
 }
 

@@ -169,6 +169,7 @@ Registration registerPatches(const std::vector<Patch>& patches, SurfaceMap& map,
                              const RegistrationOptions& options) {
   Registration result;
   result.T_odom_base = start;
+  result.free.space = options.space;
   std::vector<PlaneRow> rows;
   double start_sigma = options.start_sigma;
   int level = std::min(options.coarse_level, map.levels() - 1);
@@ -181,7 +182,7 @@ Registration registerPatches(const std::vector<Patch>& patches, SurfaceMap& map,
     const bool is_narrow = start_sigma < kSmallStart;
     start_sigma = is_narrow ? 0.0 : 0.3 * start_sigma;
     NormalEquations equations = buildEquations(result, options, rows);
-    result.free = findFreeSubspace(rows);
+    result.free = findFreeSubspace(rows, options.space);
     result.information = equations.H;
     const Vector6d back = urban_nav_core::boxMinus(prior, result.T_odom_base);
     const Vector6d step = solveObserved(equations.H, equations.g, result.free, back);

@@ -27,6 +27,7 @@ struct PatchMatch {
 };
 
 struct RegistrationOptions {
+  MotionSpace space = MotionSpace::Spatial;
   int iterations = 12;
   double surface_sigma = 0.01;  ///< m
   int coarse_level = 0;         ///< finest level of the map used by the first steps
@@ -61,7 +62,7 @@ struct Registration {
 
 /// Registers patches to the map: point-to-plane with the variance of each plane, Cauchy kernel at the observed spread.
 /// Starts at `start`; estimates the motion within the sweep jointly with the pose. Unconstrained directions are taken
-/// from `prior`. Updates outdated planes of the map.
+/// from `prior`; coordinates outside of the space remain those of `start`. Updates outdated planes of the map.
 Registration registerPatches(const std::vector<Patch>& patches, SurfaceMap& map, const Pose& prior, const Pose& start,
                              const RegistrationOptions& options);
 

@@ -12,10 +12,11 @@ using urban_nav_core::Status;
 
 namespace {
 
-constexpr int kFewestPoints = 200;      // returns required for a registration
-constexpr double kCoveredShare = 0.25;  // share of returns nearer than min_range
-constexpr double kAgreeing = 3.0;       // standard deviations
-constexpr double kLeastAgreeing = 0.5;  // share of the matches
+constexpr int kFewestPoints = 200;       // returns required for a registration
+constexpr int kFewestPlanarPoints = 30;  // of a planar laser: a twelfth of a revolution with 1 deg between beams
+constexpr double kCoveredShare = 0.25;   // share of returns nearer than min_range
+constexpr double kAgreeing = 3.0;        // standard deviations
+constexpr double kLeastAgreeing = 0.5;   // share of the matches
 // Minimum of Registration::covered if directions are free: below it, the map is of another place, and constrains
 // directions only that all places constrain, such as the height above the ground.
 constexpr double kLeastCovered = 1.0 / 3.0;
@@ -50,6 +51,7 @@ const char* toString(Reason reason) {
     case Reason::BadStamp: return "bad_stamp";
     case Reason::Gap: return "gap";
     case Reason::Overlap: return "overlap";
+    case Reason::Planar: return "planar";
   }
   return "unknown";
 }
@@ -64,13 +66,13 @@ std::string describeDirection(const Vector6d& direction) {
          ")";
 }
 
-Status statusOfStart(const SweepPoints& points, const Parameters& parameters) {
-  if (const std::optional<Status> few = findTooFewPoints(points)) return *few;
+Status statusOfStart(const SweepPoints& points, const Parameters& parameters, MotionSpace space) {
+  if (const std::optional<Status> few = findTooFewPoints(points, space)) return *few;
   return findCover(points, parameters, Health::Degraded).value_or(Status{});
 }
 
-Status statusOfRestart(const SweepPoints& points, const Parameters& parameters) {
-  Status status = statusOfStart(points, parameters);
+Status statusOfRestart(const SweepPoints& points, const Parameters& parameters, MotionSpace space) {
+  Status status = statusOfStart(points, parameters, space);
   if (status.health == Health::Lost) return status;
   return make(Health::Lost, Reason::Mismatch, "local map restarted: the motion is predicted");
 }
@@ -88,18 +90,25 @@ Status statusOfJump(const Pose& predicted, const Pose& registered) {
                   " deg from the predicted pose: implausible acceleration");
 }
 
-std::optional<Status> findTooFewPoints(const SweepPoints& points) {
+std::optional<Status> findTooFewPoints(const SweepPoints& points, MotionSpace space) {
   if (points.valid == 0) return make(Health::Lost, Reason::NoPoints, "no valid return: NaN, or ranges of zero");
-  const int left = points.used;
-  if (left >= kFewestPoints) return std::nullopt;
-  return make(Health::Lost, Reason::TooFewPoints,
-              "too few returns in range: " + std::to_string(left) + ", at least " + std::to_string(kFewestPoints) +
-                  " required");
+  const int left = points.used, fewest = space == MotionSpace::Planar ? kFewestPlanarPoints : kFewestPoints;
+  if (left >= fewest) return std::nullopt;
+  return make(
+      Health::Lost, Reason::TooFewPoints,
+      "too few returns in range: " + std::to_string(left) + ", at least " + std::to_string(fewest) + " required");
+}
+
+Status statusOfPlanar(Status status) {
+  const std::string sentence = "planar motion only: height, roll and pitch are assumed, not measured";
+  if (status.reason == static_cast<int>(Reason::None)) status.reason = static_cast<int>(Reason::Planar);
+  status.sentence += (status.sentence.empty() ? "" : "; ") + sentence;
+  return status;
 }
 
 Status statusOfRegistration(const Registration& registration, const SweepPoints& points, const Pose& T_odom_base,
                             const Parameters& parameters) {
-  if (const std::optional<Status> few = findTooFewPoints(points)) return *few;
+  if (const std::optional<Status> few = findTooFewPoints(points, registration.free.space)) return *few;
   const int matches = static_cast<int>(registration.matches.size());
   if (!registration.solved || matches < parameters.lost_patches)
     return make(Health::Lost, Reason::TooFewPoints,

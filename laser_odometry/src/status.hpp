@@ -8,13 +8,15 @@
 namespace laser_odometry {
 
 /// Returns the status of a sweep that begins the map.
-urban_nav_core::Status statusOfStart(const SweepPoints& points, const Parameters& parameters);
+urban_nav_core::Status statusOfStart(const SweepPoints& points, const Parameters& parameters, MotionSpace space);
 /// Returns the status of a sweep that restarts the map: no motion was measured.
-urban_nav_core::Status statusOfRestart(const SweepPoints& points, const Parameters& parameters);
+urban_nav_core::Status statusOfRestart(const SweepPoints& points, const Parameters& parameters, MotionSpace space);
 /// Returns the status of a sweep whose reference time is not later than the previous one.
 urban_nav_core::Status statusOfStamp(urban_nav_core::StampNs last, urban_nav_core::StampNs now);
 /// Returns a Lost status if there are too few points for a registration.
-std::optional<urban_nav_core::Status> findTooFewPoints(const SweepPoints& points);
+std::optional<urban_nav_core::Status> findTooFewPoints(const SweepPoints& points, MotionSpace space);
+/// Returns the status of a planar laser, which states that the motion is planar.
+urban_nav_core::Status statusOfPlanar(urban_nav_core::Status status);
 /// Returns the status of a registration; the sentence names deficiencies.
 urban_nav_core::Status statusOfRegistration(const Registration& registration, const SweepPoints& points,
                                             const Pose& T_odom_base, const Parameters& parameters);

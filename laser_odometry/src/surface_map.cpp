@@ -27,8 +27,8 @@ std::optional<std::uint64_t> findKey(const Vector3d& p, double size) {
   return urban_nav_registration::toKey(toCell(p, size));
 }
 
-const Plane& MapCell::currentPlane() {
-  if (!is_current) plane = fit();
+const Plane& MapCell::currentPlane(MotionSpace space) {
+  if (!is_current) plane = fit(space);
   is_current = true;
   return plane;
 }
@@ -39,7 +39,8 @@ void MapCell::archive(urban_nav_core::Archive& archive) {
   is_current = false;
 }
 
-SurfaceMap::SurfaceMap(double cell, int levels, double reach) : levels_(static_cast<std::size_t>(levels)) {
+SurfaceMap::SurfaceMap(double cell, int levels, double reach, MotionSpace space)
+    : levels_(static_cast<std::size_t>(levels)), space_(space) {
   for (Level& level : levels_) {
     level.size = cell;
     level.reach = reach;
@@ -119,7 +120,7 @@ MapCell* SurfaceMap::find(const Vector3d& p, int level) {
     const std::uint32_t number = levels_[i].table.find(*key);
     if (number == CellTable::kNone) continue;
     MapCell& cell = levels_[i].cells[number];
-    if (cell.currentPlane().usable && !isOutside(cell.plane, p)) return &cell;
+    if (cell.currentPlane(space_).usable && !isOutside(cell.plane, p)) return &cell;
   }
   return nullptr;
 }
@@ -130,8 +131,7 @@ bool SurfaceMap::hasPlane(const MapCell& cell, int level) const {
   if (!key) return false;
   const std::uint32_t number = finer.table.find(*key);
   if (number == CellTable::kNone) return false;
-  const MapCell& found = finer.cells[number];
-  return (found.is_current ? found.plane : found.fit()).usable;
+  return findPlane(finer.cells[number]).usable;
 }
 
 void SurfaceMap::prune(const Vector3d& p, double distance) {

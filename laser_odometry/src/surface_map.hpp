@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "moments.hpp"
+#include "motion_space.hpp"
 #include "sweep_points.hpp"
 #include "urban_nav_registration/cloud/cell_table.hpp"
 
@@ -33,9 +34,12 @@ struct MapCell {
     ring = is_same ? other : kSeveralRings;
   }
   /// Fits a plane to the points. Not usable if they are of a single ring: where surfaces are uneven or meet, they
-  /// spread in the cone of the ring, which is no surface and moves with the sensor.
-  Plane fit() const { return ring == kSeveralRings ? fitPlane(moments, centre) : Plane(); }
-  const Plane& currentPlane();
+  /// spread in the cone of the ring, which is no surface and moves with the sensor. `space`: in planar motion, a wall.
+  Plane fit(MotionSpace space) const {
+    if (space == MotionSpace::Planar) return fitWall(moments, centre);
+    return ring == kSeveralRings ? fitPlane(moments, centre) : Plane();
+  }
+  const Plane& currentPlane(MotionSpace space);
   void archive(urban_nav_core::Archive& archive);
 };
 
@@ -45,7 +49,7 @@ class SurfaceMap {
  public:
   /// `cell`: edge of the smallest cubes, m. `reach`: maximum distance at which points are added to the smallest cubes,
   /// m; doubles with each level, since beams diverge.
-  SurfaceMap(double cell, int levels, double reach);
+  SurfaceMap(double cell, int levels, double reach, MotionSpace space = MotionSpace::Spatial);
 
   bool empty() const { return levels_.front().cells.empty() && levels_.back().cells.empty(); }
   std::size_t size() const;
@@ -63,6 +67,8 @@ class SurfaceMap {
 
   /// Returns whether the cube of a finer `level` that contains the mean of the cell's points has a usable plane.
   bool hasPlane(const MapCell& cell, int level) const;
+  /// Returns the plane of one of the cells.
+  Plane findPlane(const MapCell& cell) const { return cell.is_current ? cell.plane : cell.fit(space_); }
 
   int levels() const { return static_cast<int>(levels_.size()); }
   /// Cells of one level in order of insertion.
@@ -80,6 +86,7 @@ class SurfaceMap {
     MapCell* obtain(const Vector3d& p, std::int32_t sweep);
   };
   std::vector<Level> levels_;
+  MotionSpace space_;
 };
 
 /// Returns the key of the cube of edge `size` that contains a point; nullopt if it is too far from the origin.

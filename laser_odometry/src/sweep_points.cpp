@@ -80,25 +80,29 @@ void SweepPoints::archive(urban_nav_core::Archive& archive) {
   for (const Segment& segment : segments) archive.require(segment.count > 0.0, "segment without returns");
 }
 
-SweepPoints collectPoints(const urban_nav_core::Sweep& sweep, const Pose& T_base_lidar, double min_range,
-                          double max_range, double longest_s, double length) {
+SweepPoints collectPoints(const urban_nav_core::Sweep& sweep, const Pose& T_base_lidar, const PointsRule& rule) {
   SweepPoints points;
-  Segmentation segmentation(length, sweep.beams.size());
-  const Eigen::Matrix3f R = T_base_lidar.R().cast<float>();
-  const Eigen::Vector3f t = T_base_lidar.t().cast<float>();
-  const bool has_rings = hasRings(sweep);
+  Segmentation segmentation(rule.length, sweep.beams.size());
+  const bool is_planar = rule.space == MotionSpace::Planar;
+  Eigen::Matrix3f R = T_base_lidar.R().cast<float>();
+  Eigen::Vector3f t = T_base_lidar.t().cast<float>();
+  if (is_planar) {
+    R.row(2).setZero();
+    t.z() = 0.0F;
+  }
+  const bool has_rings = is_planar || hasRings(sweep);
   const bool is_timed = sweep.times == urban_nav_core::Sweep::Times::Measured;
   for (const urban_nav_core::Beam& beam : sweep.beams) {
     const Eigen::Vector3f p = beam.range * beam.direction;
     if (!p.allFinite() || !(beam.range > 0.0F)) continue;
     ++points.valid;
-    if (static_cast<double>(beam.range) < min_range) {
+    if (static_cast<double>(beam.range) < rule.min_range) {
       ++points.near;
       continue;
     }
-    if (static_cast<double>(beam.range) > max_range) continue;
+    if (static_cast<double>(beam.range) > rule.max_range) continue;
     const double time = is_timed ? urban_nav_core::secondsBetween(sweep.reference, beam.stamp) : 0.0;
-    if (!(std::abs(time) <= longest_s)) continue;
+    if (!(std::abs(time) <= rule.longest_s)) continue;
     segmentation.add(has_rings ? beam.ring : Segment::kUnknownRing, R * p + t, time);
     ++points.used;
     points.first_s = std::min(points.first_s, time);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "moments.hpp"
-#include "urban_nav_core/geometry/se3.hpp"
+#include "motion_space.hpp"
 #include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/laser/sweep.hpp"
 
@@ -42,11 +42,18 @@ struct SweepPoints {
   void archive(urban_nav_core::Archive& archive);
 };
 
-/// Returns the beams of a sweep between two ranges (m). Drops beams that are not finite, and those with a time more
-/// than `longest_s` from the reference, which is invalid. `length`: largest distance between returns of a segment, m.
-/// Without rings (all beams have the same), each return is a segment.
-SweepPoints collectPoints(const urban_nav_core::Sweep& sweep, const Pose& T_base_lidar, double min_range,
-                          double max_range, double longest_s, double length);
+/// Which beams are used, and how they are divided.
+struct PointsRule {
+  double min_range = 0.5, max_range = 100.0;  ///< m
+  double longest_s = 1.0;                     ///< s, of a valid time from the reference
+  double length = 0.25;                       ///< m, largest distance between returns of a segment
+  /// Planar: points are projected to the x-y plane of base_link, since walls are vertical.
+  MotionSpace space = MotionSpace::Spatial;
+};
+
+/// Returns the beams of a sweep between two ranges. Drops beams that are not finite, and those with an invalid time.
+/// Without rings (all beams of a 3D LiDAR have the same), each return is a segment.
+SweepPoints collectPoints(const urban_nav_core::Sweep& sweep, const Pose& T_base_lidar, const PointsRule& rule);
 
 /// Motion of base_link within a sweep, SE(3) tangents in base_link at the reference time: T_reference_now =
 /// Exp(t twist + t^2 / 2 acceleration).

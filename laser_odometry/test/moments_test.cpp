@@ -63,5 +63,27 @@ TEST(Plane, LinesBlobsAndFewPointsAreNotUsable) {
   for (const Moments& moments : {line, blob, few, equal}) EXPECT_FALSE(fitPlane(moments, Vector3d::Zero()).usable);
 }
 
+TEST(Moments, AWallIsFittedInThePlaneOfTheScan) {
+  urban_nav_core::testing::Dice dice(4);
+  const Vector3d origin(10.0, -3.0, 0.0), along(std::cos(0.6), std::sin(0.6), 0.0), normal(-along.y(), along.x(), 0.0);
+  Moments moments;
+  for (int i = 0; i < 400; ++i) moments.add(dice.uniform(-0.2, 0.2) * along + 0.01 * dice.normal() * normal);
+  const Plane wall = fitWall(moments, origin);
+  ASSERT_TRUE(wall.usable);
+  EXPECT_GT(std::abs(wall.normal.dot(normal)), std::cos(4.0 * std::sqrt(wall.normal_variance)));
+  EXPECT_EQ(wall.normal.z(), 0.0);
+  EXPECT_NEAR(wall.variance, 1e-4, 2e-5);
+  EXPECT_NEAR(wall.width, 0.4 * 0.4 / 12.0, 2e-3);
+  EXPECT_NEAR(wall.normal.dot(wall.mean - origin), 0.0, 0.003);
+  EXPECT_FALSE(isOutside(wall, origin + 0.2 * along));
+  EXPECT_TRUE(isOutside(wall, origin + 0.4 * along));
+
+  Moments corner, few;
+  for (int i = 0; i < 200; ++i) corner.add(0.001 * i * (i % 2 == 0 ? along : normal));
+  for (int i = 0; i < 5; ++i) few.add(0.1 * i * along);
+  EXPECT_FALSE(fitWall(corner, origin).usable);
+  EXPECT_FALSE(fitWall(few, origin).usable);
+}
+
 }  // namespace
 }  // namespace laser_odometry

@@ -94,5 +94,31 @@ TEST(Observability, TheCovarianceIsTheInverseWhereObservedAndThePriorAlongTheFre
   EXPECT_LT((C.bottomRightCorner<5, 5>() * observed - Eigen::Matrix<double, 5, 5>::Identity()).norm(), 1e-6);
 }
 
+TEST(Observability, OfPlanarMotionOnlyCoordinatesInThePlaneAreFreeOrObserved) {
+  Dice dice(9);
+  std::vector<PlaneRow> rows;  // a corridor along (0.8, 0.6)
+  const Vector3d along(0.8, 0.6, 0.0), across(-0.6, 0.8, 0.0);
+  for (int i = 0; i < 120; ++i)
+    rows.push_back(makeRow(dice.uniform(-8.0, 8.0) * along + (i % 2 == 0 ? 1.2 : -1.2) * across,
+                           (across + 0.02 * dice.normal() * along).normalized(), 1e4));
+  const FreeSubspace free = findFreeSubspace(rows, MotionSpace::Planar);
+  ASSERT_EQ(free.directions.size(), 1u);
+  EXPECT_GT(std::abs(free.directions[0].head<3>().dot(along)), std::cos(0.05));
+  EXPECT_EQ(free.evidence.size(), 3u);
+
+  Matrix6d H = Matrix6d::Zero();
+  for (const PlaneRow& row : rows) H += row.weight * row.jacobian() * row.jacobian().transpose();
+  const Matrix6d C = covarianceOfObserved(H, free, 4.0 * Matrix6d::Identity());
+  for (const int i : {2, 3, 4}) EXPECT_EQ(C.row(i).norm() + C.col(i).norm(), 0.0);
+  EXPECT_NEAR(along.dot(C.topLeftCorner<3, 3>() * along), 4.0, 0.1);
+  EXPECT_LT(across.dot(C.topLeftCorner<3, 3>() * across), 0.02);
+  const Vector6d step = solveObserved(H, H * Vector6d::Constant(0.01), free, Vector6d::Zero());
+  for (const int i : {2, 3, 4}) EXPECT_EQ(step[i], 0.0);
+
+  for (int i = 0; i < 30; ++i) rows.push_back(makeRow(6.0 * along + dice.uniform(-1.0, 1.0) * across, along, 1e4));
+  EXPECT_FALSE(findFreeSubspace(rows, MotionSpace::Planar).isFree());
+  EXPECT_EQ(findFreeSubspace({}, MotionSpace::Planar).directions.size(), 3u);
+}
+
 }  // namespace
 }  // namespace laser_odometry

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "laser_odometry/laser_odometry.hpp"
-#include "support/spinning_lidar.hpp"
+#include "support/floor_plans.hpp"
 
 namespace laser_odometry {
 namespace {
@@ -52,7 +52,21 @@ TEST(ParameterEffects, EachParameterChangesTheEstimate) {
     return text.str();
   };
   const Experiment lost("sweeps without returns", blink, {{"acceleration", 3.0}, {"angular_acceleration", 0.2}});
-  EXPECT_EQ(urban_nav_core::testing::findParametersWithoutEffect(table(), {street, lost}), "");
+  const Experiment office(
+      "office with a planar laser",
+      [](const Parameters& parameters) {
+        const SpinningLidar laser = makePlanarLaser();
+        LaserOdometry odometry(parameters, laser.T_base_lidar, Scanner::Planar);
+        std::ostringstream text;
+        text.precision(17);
+        for (int i = 0; i < 5; ++i) {
+          const LaserPose pose = odometry.process(laser.scan(makeOffice(1), makeDrive(1.0, 0.3), 0.1 * i, 1));
+          text << pose.T_odom_base.matrix() << "\n" << pose.step.covariance << "\n" << pose.covariance << "\n";
+        }
+        return text.str();
+      },
+      {{"planar_cell", 0.4}, {"planar_min_range", 4.5}, {"floor_height", 0.1}, {"floor_tilt", 2.0}});
+  EXPECT_EQ(urban_nav_core::testing::findParametersWithoutEffect(table(), {street, lost, office}), "");
 }
 
 }  // namespace

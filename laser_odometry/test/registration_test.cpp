@@ -22,9 +22,9 @@ Registered prepare(const BoxWorld& world, const Pose& T_world_base) {
   lidar.sigma_m = 0.0;
   const Pose T_world_odom(Eigen::Quaterniond::Identity(), {0, 0, 1.7});
   const auto still = [](const Pose& T) { return [T](double) { return T; }; };
-  const SweepPoints first = collectPoints(lidar.scan(world, still(T_world_odom), 0, 1), {}, 1.0, 80.0, 1.0, 0.25);
+  const SweepPoints first = collectPoints(lidar.scan(world, still(T_world_odom), 0, 1), {}, {1.0, 80.0, 1.0, 0.25});
   const SweepPoints second =
-      collectPoints(lidar.scan(world, still(T_world_odom * T_world_base), 0, 1), {}, 1.0, 80.0, 1.0, 0.25);
+      collectPoints(lidar.scan(world, still(T_world_odom * T_world_base), 0, 1), {}, {1.0, 80.0, 1.0, 0.25});
   Registered all;
   all.map.insert(deskew(first, {}), Vector3d::Zero(), 0);
   all.patches = makePatches(deskew(second, {}), 0.5);

@@ -19,7 +19,7 @@ TEST(SweepPoints, DeskewedSegmentsAreThoseAtTheReferenceTime) {
   lidar.T_base_lidar = Pose(urban_nav_core::expSo3({0.0, 0.1, 0.2}), {0.5, 0.0, 0.2});
   const auto motion = makeDrive(10.0, 1.0);
   const SweepPoints points =
-      collectPoints(lidar.scan(makeRoom(), motion, 0.1, 1), lidar.T_base_lidar, 0.5, 80.0, 1.0, 0.25);
+      collectPoints(lidar.scan(makeRoom(), motion, 0.1, 1), lidar.T_base_lidar, {0.5, 80.0, 1.0, 0.25});
   Vector6d twist;
   twist << 10.0, 0, 0, 0, 0, 1.0;
   const Pose T_world_base = motion(0.1);
@@ -52,7 +52,7 @@ TEST(SweepPoints, OnlyFiniteBeamsBetweenTheRangesCount) {
   add(std::numeric_limits<float>::infinity(), 0);
   add(-3.0F, 0);
   add(5.0F, std::numeric_limits<StampNs>::max());
-  const SweepPoints points = collectPoints(sweep, {}, 1.0, 100.0, 1.0, 0.25);
+  const SweepPoints points = collectPoints(sweep, {}, {1.0, 100.0, 1.0, 0.25});
   EXPECT_EQ(points.used, 1);
   EXPECT_EQ(points.segments.size(), 1u);
   EXPECT_EQ(points.near, 1);
@@ -63,7 +63,7 @@ TEST(SweepPoints, WithoutTimesNothingMoves) {
   SpinningLidar lidar;
   Sweep sweep = lidar.scan(makeRoom(), makeDrive(0, 0), 0.0, 1);
   sweep.times = Sweep::Times::Unknown;
-  const SweepPoints points = collectPoints(sweep, {}, 0.5, 80.0, 1.0, 0.25);
+  const SweepPoints points = collectPoints(sweep, {}, {0.5, 80.0, 1.0, 0.25});
   const std::vector<Segment> moved = deskew(points, {10.0 * Vector6d::Ones(), Vector6d::Ones()});
   for (std::size_t i = 0; i < moved.size(); ++i) EXPECT_EQ(moved[i].mean, points.segments[i].mean);
 }
@@ -82,7 +82,7 @@ TEST(SweepPoints, SegmentsHoldAllReturnsOfOneRingWithinTheirLength) {
       beam.range = static_cast<float>((column < 200 ? 8.0 : 12.0) + 0.02 * dice.normal());
       sweep.beams.push_back(beam);
     }
-  const SweepPoints points = collectPoints(sweep, {}, 1.0, 100.0, 1.0, 0.25);
+  const SweepPoints points = collectPoints(sweep, {}, {1.0, 100.0, 1.0, 0.25});
   double count = 0.0;
   Vector3d sum = Vector3d::Zero(), expected = Vector3d::Zero();
   for (const Segment& segment : points.segments) {
@@ -108,7 +108,7 @@ TEST(SweepPoints, AWallAtTheBorderOfTwoCubesIsNotDividedByItsNoise) {
   world.boxes.push_back({{-20.0, 2.0, -5.0}, {20.0, 3.0, 5.0}});
   const SweepPoints points = collectPoints(lidar.scan(
                                                world, [](double) { return Pose(); }, 0.0, 1),
-                                           {}, 0.5, 8.0, 1.0, 0.25);
+                                           {}, {0.5, 8.0, 1.0, 0.25});
   SurfaceMap map(0.5, 1, 100.0);
   map.insert(deskew(points, {}), Vector3d::Zero(), 0);
   double weights = 0.0, squares = 0.0;

@@ -35,14 +35,14 @@ StoreWriterLink::Options storeOptions() {
 
 }  // namespace
 
-/// Loop closures on topics: the worker records keyframes, scans and odometry, the verifier measures candidates in a
-/// separate thread.
+/// Loop closures on topics: the worker records keyframes, scans, sweeps and odometry, the verifier measures candidates
+/// in a separate thread.
 class LoopMetricStage {
  public:
   static constexpr const char* name = "loop_metric";
   static constexpr const char* topic = "loop closures";
   using Input = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr,
-                             urban_nav_core::StampedTurn, urban_nav_core::StampedPose, urban_nav_core::SessionStep>;
+                             sensor_msgs::PointCloud2ConstPtr, urban_nav_core::StampedTurn, urban_nav_core::StampedPose, urban_nav_core::SessionStep>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
   explicit LoopMetricStage(Node& node);

@@ -122,7 +122,7 @@ void PoseGraphStage::subscribe() {
   occasional.is_monitored = false;
   steady.is_awaited = occasional.is_awaited = true;
   node_.subscribeInput<urban_nav_msgs::RelativePose>(
-      topics::kVoRelativePose, steady, [](const auto& message) { return urban_nav_ros::toSessionStep(*message); });
+      topics::kRelativePose, steady, [](const auto& message) { return urban_nav_ros::toSessionStep(*message); });
   node_.subscribeInput<urban_nav_msgs::MetricClosure>(
       topics::kMetricClosure, occasional, [](const auto& message) { return urban_nav_ros::toMetricClosure(*message); });
   TopicOptions unawaited = occasional;
@@ -132,7 +132,7 @@ void PoseGraphStage::subscribe() {
   });
   TopicOptions always = unawaited;
   always.is_paused = false;
-  node_.subscribe<nav_msgs::Odometry>(topics::kVoOdometry, always, [this](const nav_msgs::OdometryConstPtr& message) {
+  node_.subscribe<nav_msgs::Odometry>(topics::kOdometry, always, [this](const nav_msgs::OdometryConstPtr& message) {
     const StampNs stamp = urban_nav_ros::toStampNs(message->header.stamp);
     if (const auto T_odom_base = urban_nav_ros::toPose(message->pose.pose))
       node_.push(urban_nav_core::StampedPose{stamp, *T_odom_base});

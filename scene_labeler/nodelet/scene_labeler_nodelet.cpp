@@ -22,6 +22,7 @@
 #include "live/nodelet_parameters.hpp"
 #include "scene_labeler/class_map.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_live/beam_faults.hpp"
 #include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
@@ -113,6 +114,7 @@ class SceneLabelerStage {
   std::chrono::steady_clock::time_point last_pose_;
   geometry_msgs::PointStampedConstPtr click_;
   std::string taught_fault_;
+  std::string thresholds_;  // probability from which labels are sure, or a sentence on fixed ones
   urban_nav_live::BeamFaults beams_;
   ClassMap class_map_;                   // values of class images
   urban_nav_ros::GreyRange grey_range_;  // 16-bit pixels of both cameras
@@ -122,7 +124,11 @@ SceneLabelerStage::SceneLabelerStage(Node& node) : node_(node) {
   Parameters parameters;
   std::tie(nodelet_, parameters) = node.parameters(nodeletTable(), table());
   node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
-  labels_ = std::make_unique<LiveLabels>(parameters, readModel(parameters.model), outputs());
+  LabelModel model = readModel(parameters.model);
+  thresholds_ = thresholdNote(model.sure, parameters.precision, parameters.model);
+  if (thresholds_.empty())
+    thresholds_ = urban_nav_core::printNumber(model.sure.rowFor(parameters.precision).least);
+  labels_ = std::make_unique<LiveLabels>(parameters, std::move(model), outputs());
   image_ = node.nh().advertise<sensor_msgs::Image>(urban_nav_ros::topics::kLabelImage, 10);
   cloud_ = node.nh().advertise<sensor_msgs::PointCloud2>(urban_nav_ros::topics::kLabelCloud, 10);
   subscribeRobot(node, nodelet_.queue_size, false, false, true);
@@ -313,6 +319,7 @@ urban_nav_live::StageReport SceneLabelerStage::report() const {
   report.add("images", counts.images);
   report.add("poses of odometry", counts.poses);
   report.add("scans and images dropped without odometry", counts.dropped);
+  report.add("probability of sure labels", thresholds_);
   report.add("frames labelled", counts.frames);
   report.add("of these with an image", counts.imaged_frames);
   report.add("of these with a class image", counts.class_frames);

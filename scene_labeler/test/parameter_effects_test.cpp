@@ -53,7 +53,7 @@ std::string labelDrive(const Parameters& parameters) {
   const auto take = [&bytes](const std::vector<DriveReturn>& returns, const SceneLabels& labels) {
     for (std::size_t i = 0; i < returns.size(); ++i)
       bytes += std::to_string(returns[i].scan) + " " + std::to_string(static_cast<int>(labels.labels[i])) + " " +
-               std::to_string(labels.probability(i)) + "\n";
+               std::to_string(labels.probability(i)) + " " + std::to_string(labels.unsure[i]) + "\n";
   };
   const ClassMap map = parameters.class_file.empty() ? ClassMap() : ClassMap(parameters.class_file);
   LiveLabels drive(parameters, readModel(parameters.model),
@@ -87,6 +87,7 @@ TEST(ParameterEffects, EachParameterChangesTheLabels) {
       {{"drive past a wall",
         labelDrive,
         {{"model", model},
+         {"precision", 0.5},
          {"superpixel", 40},
          {"spacing", 1.0},
          {"projection_distance", 4.0},

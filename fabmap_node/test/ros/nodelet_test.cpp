@@ -76,7 +76,7 @@ class Head {
     for (int camera = 0; camera < kHeadCameras; ++camera)
       images_.push_back(
           nh_.advertise<sensor_msgs::Image>("ladybug/camera" + std::to_string(camera) + "/image_raw", 100));
-    odometry_ = nh_.advertise<nav_msgs::Odometry>("vo/odometry", 100);
+    odometry_ = nh_.advertise<nav_msgs::Odometry>("odometry", 100);
     belief_ = nh_.subscribe<urban_nav_msgs::PlaceBelief>(
         "places/belief", 100, [this](const urban_nav_msgs::PlaceBeliefConstPtr& m) { beliefs.push_back(*m); });
     closure_ = nh_.subscribe<urban_nav_msgs::TopologicalClosure>(

@@ -8,12 +8,18 @@
 #include "laser_mapper/laser_map.hpp"
 #include "laser_mapper/map_files.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/lidar_sweep.hpp"
+#include "urban_nav_store/tables/mounted_lidar.hpp"
 
 namespace laser_mapper {
 
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_core::Trajectory;
+using urban_nav_store::LidarSweep;
+using urban_nav_store::MountedLidar;
+using urban_nav_store::TableStore;
 
 namespace {
 
@@ -79,11 +85,18 @@ void LiveMap::open() {
   urban_nav_store::removeStore(path_);
   store_ = std::make_unique<urban_nav_store::Store>(path_, urban_nav_store::Access::Write);
   store_->sessions().put(urban_nav_store::Session{kLiveSession, "live", "", "", 0, false});
+  storePlaces();
+}
+
+void LiveMap::storePlaces() {
   for (const auto& [frame, T_base_laser] : placed_)
     store_->sessions().put(kLiveSession, urban_nav_store::Extrinsic{frame, T_base_laser});
+  for (const auto& [frame, lidar] : lidars_)
+    TableStore<MountedLidar>(*store_).put({kLiveSession, lidar.role, frame, lidar.T_base_lidar});
 }
 
 void LiveMap::clear() {
+  for (auto& each : lidars_) each.second.spacing = urban_nav_core::TravelSpacing(urban_nav_core::kSweepSpacing);
   open();
   T_odom_base_.clear();
   // The graph may already have sent poses of the new session.
@@ -101,8 +114,28 @@ void LiveMap::clear() {
 }
 
 void LiveMap::placeLaser(const std::string& laser, const Pose& T_base_laser) {
-  if (!placed_.emplace(laser, T_base_laser).second) return;
-  store_->sessions().put(kLiveSession, urban_nav_store::Extrinsic{laser, T_base_laser});
+  if (placed_.emplace(laser, T_base_laser).second) storePlaces();
+}
+
+void LiveMap::placeLidar(const std::string& frame, const Pose& T_base_lidar) {
+  Lidar lidar;
+  lidar.role = "points" + std::to_string(lidars_.size());
+  lidar.T_base_lidar = T_base_lidar;
+  if (lidars_.emplace(frame, lidar).second) storePlaces();
+}
+
+void LiveMap::addSweep(const std::string& frame, const urban_nav_core::Sweep& sweep) {
+  if (lidars_.count(frame) == 0) {
+    ++counts_.scans_unplaced;
+    return;
+  }
+  rounds_->add(streamNumber(frame), sweep.reference, [this, frame, sweep] {
+    Lidar& lidar = lidars_.at(frame);
+    const std::optional<Pose> newest = T_odom_base_.empty() ? std::nullopt : std::optional(T_odom_base_.rbegin()->second);
+    if (!lidar.spacing.takes(sweep.reference, newest)) return;
+    TableStore<LidarSweep>(*store_).put({kLiveSession, lidar.role, sweep.reference, LidarSweep::pack(sweep)});
+    ++counts_.sweeps;
+  });
 }
 
 void LiveMap::addScan(const std::string& laser, const urban_nav_core::Scan& scan) {

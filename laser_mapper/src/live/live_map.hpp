@@ -18,7 +18,9 @@
 #include "laser_mapper/quality/plane_constraints.hpp"
 #include "laser_mapper/quality/shared_beams.hpp"
 #include "urban_nav_core/laser/scan.hpp"
+#include "urban_nav_core/laser/sweep.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
+#include "urban_nav_core/trajectory/travel_spacing.hpp"
 #include "urban_nav_core/types/closure.hpp"
 #include "urban_nav_core/types/graph_update.hpp"
 #include "urban_nav_core/types/odometry_session.hpp"
@@ -37,7 +39,8 @@ class LiveMap {
   /// Statistics for the operator.
   struct Counts {
     std::size_t scans = 0;
-    std::size_t scans_unplaced = 0;               ///< from lasers with unknown mounting
+    std::size_t sweeps = 0;                       ///< of 3D LiDARs, as many as the motion of the robot requires
+    std::size_t scans_unplaced = 0;               ///< scans and sweeps of lasers with unknown mounting
     std::size_t poses = 0;                        ///< of odometry
     std::size_t points = 0;                       ///< in the last map
     std::size_t chunks = 0, chunks_rendered = 0;  ///< all; in the last render()
@@ -52,9 +55,11 @@ class LiveMap {
   LiveMap(const LiveMap&) = delete;
   LiveMap& operator=(const LiveMap&) = delete;
 
-  bool isPlaced(const std::string& laser) const { return placed_.count(laser) != 0; }
+  bool isPlaced(const std::string& laser) const { return placed_.count(laser) + lidars_.count(laser) != 0; }
   void placeLaser(const std::string& laser, const urban_nav_core::Pose& T_base_laser);
   void addScan(const std::string& laser, const urban_nav_core::Scan& scan);
+  void placeLidar(const std::string& frame, const urban_nav_core::Pose& T_base_lidar);
+  void addSweep(const std::string& frame, const urban_nav_core::Sweep& sweep);
   void addOdometry(const urban_nav_core::StampedPose& T_odom_base);
   void addGraph(const urban_nav_core::GraphUpdate& update);
   /// Adds a step of odometry between two poses of the graph, which constraints connect. It names the session, to which
@@ -121,7 +126,15 @@ class LiveMap {
   const std::string path_;
   const double cloud_half_length_;
   std::unique_ptr<urban_nav_store::Store> store_;
-  std::map<std::string, urban_nav_core::Pose> placed_;
+  void storePlaces();
+  struct Lidar {
+    std::string role;  ///< "points0", its name in the store
+    urban_nav_core::Pose T_base_lidar;
+    urban_nav_core::TravelSpacing spacing{urban_nav_core::kSweepSpacing};
+  };
+
+  std::map<std::string, urban_nav_core::Pose> placed_;  ///< planar lasers, by frame
+  std::map<std::string, Lidar> lidars_;                 ///< by frame
   std::map<urban_nav_core::StampNs, urban_nav_core::Pose> T_odom_base_;
   std::string announced_;        ///< id of the session; empty: not announced by odometry
   std::set<std::string> ended_;  ///< earlier sessions announced by odometry

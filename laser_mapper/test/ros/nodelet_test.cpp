@@ -168,8 +168,8 @@ class WallRobot : public urban_nav_ros::testing::Listener {
 
   const urban_nav_ros::testing::Receipts receipts_{"laser_mapper"};
   ros::Publisher tf_static_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
-  ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("vo/odometry");
-  ros::Publisher relative_ = advertise<urban_nav_msgs::RelativePose>("vo/relative_pose");
+  ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("odometry");
+  ros::Publisher relative_ = advertise<urban_nav_msgs::RelativePose>("odometry/relative_pose");
   ros::Publisher left_ = advertise<sensor_msgs::LaserScan>("laser_left/scan");
   ros::Publisher right_ = advertise<sensor_msgs::LaserScan>("laser_right/scan");
   ros::Publisher graph_ = advertise<urban_nav_msgs::GraphUpdate>("graph/update");
@@ -241,7 +241,7 @@ TEST(LaserMapperNodelet, ASilentOdometryIsNamed) {
   ASSERT_TRUE(
       WallRobot::until([&] { return !robot.statuses.empty() && robot.statuses.back().reason_name == "NoOdometry"; }));
   EXPECT_EQ(robot.statuses.back().status, urban_nav_msgs::StageStatus::DEGRADED);
-  EXPECT_NE(robot.statuses.back().message.find("/vo/odometry"), std::string::npos) << robot.statuses.back().message;
+  EXPECT_NE(robot.statuses.back().message.find("/odometry"), std::string::npos) << robot.statuses.back().message;
 }
 
 TEST(LaserMapperNodelet, PlanesOfTwoRoundsConstrainThePosesOfTheGraph) {

@@ -24,9 +24,18 @@ enum class Reason : int {
   BadStamp,       ///< the reference time is not later than the previous one: the sweep is dropped
   Gap,            ///< time since the previous sweep much longer than the usual sweep period
   Overlap,        ///< the sweep begins long before the end of the previous one
+  Planar,         ///< planar scanner: height, roll and pitch are assumed, not measured; the status is OK
 };
 /// Returns "" for None, else the enumerator in small letters and underscores.
 const char* toString(Reason reason);
+
+/// Kind of sensor.
+enum class Scanner : int {
+  Spatial = 0,  ///< 3D LiDAR
+  /// Planar laser that is horizontal (urban_nav_core::isHorizontal). Only x, y and yaw of the motion are measured:
+  /// walls are assumed to be vertical, and base_link to stay on the plane of its first pose.
+  Planar = 1
+};
 
 /// Motion of base_link between two sweeps by another sensor (stereo, wheels, gyroscope).
 struct MotionPrior {
@@ -54,10 +63,11 @@ struct LaserPose {
   /// Covariance of T_first_base in the axes of the first pose, tangent as in PoseWithCovariance.
   urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Identity();
   /// Motion since the last accepted sweep; from == to for the first one. Along a free direction the motion and its
-  /// variance are those of the prior.
+  /// variance are those of the prior. With Scanner::Planar, height, roll and pitch of the pose are zero and have the
+  /// variances of the assumed floor.
   urban_nav_core::RelativePose step;
   /// Directions of the motion that the surroundings do not constrain: unit vectors, translation (m) before rotation
-  /// (rad times the mean lever of the surfaces), in the axes of base_link.
+  /// (rad times the mean lever of the surfaces), in the axes of base_link. With Scanner::Planar, of x, y and yaw.
   std::vector<urban_nav_core::Vector6d> free_directions;
   urban_nav_core::Status status;
   Statistics statistics;
@@ -70,7 +80,7 @@ struct MapPoint {
   float sigma = 0.0F;                                ///< standard deviation along the normal, m
 };
 
-/// Odometry by 3D LiDAR: each sweep is registered to a local map of surface elements
+/// Odometry by a 3D LiDAR or a horizontal planar laser: each sweep is registered to a local map of surface elements
 /// (docs/derivations/laser_odometry.md).
 ///
 /// Accepts any sweep in any order of time; each gives a finite pose and a positive definite covariance. Unusable sweeps
@@ -79,15 +89,18 @@ struct MapPoint {
 class LaserOdometry {
  public:
   /// T_base_lidar: the sensor's frame in base_link.
-  LaserOdometry(const Parameters& parameters, const urban_nav_core::Pose& T_base_lidar);
-  /// Resumes from the `state` of another object. Throws UserError if that had other parameters or another T_base_lidar,
-  /// DataError if the bytes are damaged or of another version.
-  LaserOdometry(const Parameters& parameters, const urban_nav_core::Pose& T_base_lidar, std::string_view state);
+  LaserOdometry(const Parameters& parameters, const urban_nav_core::Pose& T_base_lidar,
+                Scanner scanner = Scanner::Spatial);
+  /// Resumes from the `state` of another object. Throws UserError if that had other parameters, another T_base_lidar
+  /// or another scanner, DataError if the bytes are damaged or of another version.
+  LaserOdometry(const Parameters& parameters, const urban_nav_core::Pose& T_base_lidar, std::string_view state,
+                Scanner scanner = Scanner::Spatial);
   ~LaserOdometry();
   LaserOdometry(LaserOdometry&&) noexcept;
   LaserOdometry& operator=(LaserOdometry&&) noexcept;
 
   /// Registers a sweep. `prior` replaces the prediction by constant velocity; its covariance must be positive definite.
+  /// Scanner::Planar: of `prior`, x, y and yaw are used.
   LaserPose process(const urban_nav_core::Sweep& sweep, const std::optional<MotionPrior>& prior = std::nullopt);
 
   /// Returns the planes of the local map, at the finest resolution with a plane at each position.

@@ -20,6 +20,10 @@ struct Parameters {
   double angular_acceleration;  // rad/s^2
   int lost_patches;             //
   int degraded_patches;         //
+  double planar_cell;           // m
+  double planar_min_range;      // m
+  double floor_height;          // m after 1 m
+  double floor_tilt;            // deg
 
   Parameters();
 };

@@ -2,7 +2,10 @@
 #include "live/live_laser_odometry.hpp"
 
 #include <chrono>
+#include <cmath>
 
+#include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_core/laser/planar_sweep.hpp"
 #include "urban_nav_core/sequence/time_jump.hpp"
 
 namespace laser_odometry {
@@ -14,10 +17,28 @@ void LiveLaserOdometry::place(const urban_nav_core::Pose& T_base_lidar) {
   is_placed_ = true;
 }
 
+bool LiveLaserOdometry::place(const std::optional<urban_nav_core::Pose>& T_base_lidar, const std::string& base,
+                              const std::string& frame) {
+  const bool is_planar = scanner_ == Scanner::Planar;
+  if (!T_base_lidar) {
+    setFault("no transform from " + base + " to " + frame + " on /tf_static" +
+             (is_planar ? "; lasers that nod or spin are not supported" : ""));
+    return false;
+  }
+  if (is_planar && !urban_nav_core::isHorizontal(*T_base_lidar)) {
+    const double tilt = urban_nav_core::tiltOfLaser(*T_base_lidar) * 180.0 / M_PI;
+    setFault("the planar laser " + frame + " is tilted by " + urban_nav_core::formatNumber(tilt, 3) + " deg against " +
+             base + ": none of its scans measures again what an earlier one did; at most 10 deg are allowed");
+    return false;
+  }
+  place(*T_base_lidar);
+  return true;
+}
+
 void LiveLaserOdometry::process(const urban_nav_core::Sweep& sweep) {
   if (odometry_ && urban_nav_core::jumpsBack(sweep.reference, newest_.stamp)) end("time went back");
   if (!odometry_) {
-    odometry_ = std::make_unique<LaserOdometry>(parameters_, T_base_lidar_);
+    odometry_ = std::make_unique<LaserOdometry>(parameters_, T_base_lidar_, scanner_);
     ++sessions_;
     session_ = urban_nav_live::toOdometrySession(namer_.begin(recording_, sweep.reference).session);
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "laser_odometry/laser_odometry.hpp"
@@ -18,12 +19,20 @@ class LiveLaserOdometry {
   using Listener = std::function<void(const LaserPose& pose, double process_ms)>;
 
   /// `robot`, `recording`: parts of the session ids; may be empty.
-  LiveLaserOdometry(const Parameters& parameters, Listener listener, const std::string& robot = "",
-                    std::string recording = "")
-      : parameters_(parameters), listener_(std::move(listener)), recording_(std::move(recording)), namer_(robot) {}
+  LiveLaserOdometry(const Parameters& parameters, Listener listener, Scanner scanner = Scanner::Spatial,
+                    const std::string& robot = "", std::string recording = "")
+      : parameters_(parameters),
+        scanner_(scanner),
+        listener_(std::move(listener)),
+        recording_(std::move(recording)),
+        namer_(robot) {}
 
   /// Sets the pose of the LiDAR on the robot. A change ends the session.
   void place(const urban_nav_core::Pose& T_base_lidar);
+  /// Sets the pose as known by tf. Returns false, with a fault that names the frames, if it is unknown or that of a
+  /// planar laser that is not horizontal.
+  bool place(const std::optional<urban_nav_core::Pose>& T_base_lidar, const std::string& base,
+             const std::string& frame);
   /// Processes a sweep. The first one begins a session, as does a sweep whose reference is more than a second before
   /// the newest. Requires place().
   void process(const urban_nav_core::Sweep& sweep);
@@ -44,6 +53,7 @@ class LiveLaserOdometry {
 
  private:
   const Parameters parameters_;
+  const Scanner scanner_;
   const Listener listener_;
   const std::string recording_;
   urban_nav_live::SessionNamer namer_;

@@ -13,6 +13,7 @@ struct NodeletParameters {
   std::string base_frame, odom_frame;
   std::string robot, recording;
   bool publish_tf;
+  bool planar;
   bool deskewed;
   int queue_size;  // messages
   double drain_s;  // s

@@ -52,5 +52,18 @@ TEST(LiveLaserOdometry, TimeGoingBackOrAnotherMountingBeginsANewSession) {
   EXPECT_NE(live.odometry.report().summary.find("reset"), std::string::npos);
 }
 
+TEST(LiveLaserOdometry, APlanarLaserThatIsNotHorizontalIsRefusedWithTheReason) {
+  LiveLaserOdometry odometry(Parameters(), {}, Scanner::Planar);
+  const Pose tilted(urban_nav_core::expSo3({0.3, 0.0, 0.0}), {0.1, 0.0, 0.2}), level;
+  EXPECT_FALSE(odometry.place(std::nullopt, "base_link", "laser"));
+  EXPECT_NE(odometry.report().summary.find("no transform from base_link to laser"), std::string::npos);
+  EXPECT_FALSE(odometry.place(tilted, "base_link", "laser"));
+  EXPECT_NE(odometry.report().summary.find("laser is tilted by 17.2 deg against base_link"), std::string::npos)
+      << odometry.report().summary;
+  EXPECT_FALSE(odometry.isPlaced());
+  EXPECT_TRUE(odometry.place(level, "base_link", "laser"));
+  EXPECT_TRUE(odometry.isPlaced());
+}
+
 }  // namespace
 }  // namespace laser_odometry

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
+#include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <tf2_msgs/TFMessage.h>
 #include <urban_nav_msgs/LaserOdometryStatus.h>
@@ -8,7 +9,7 @@
 
 #include <cstring>
 
-#include "../support/spinning_lidar.hpp"
+#include "../support/floor_plans.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/pose.hpp"
@@ -89,6 +90,81 @@ class LaserGraph : public urban_nav_ros::testing::Listener {
   ros::Publisher points_ = advertise<sensor_msgs::PointCloud2>("points");
   ros::Publisher tf_static_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
 };
+
+/// The scan of a planar laser as published by its driver: the header has the time of the first beam.
+sensor_msgs::LaserScan toScanMessage(const Sweep& sweep, const std::string& frame) {
+  sensor_msgs::LaserScan scan;
+  scan.header.stamp = urban_nav_ros::toRosTime(sweep.reference - 50'000'000);
+  scan.header.frame_id = frame;
+  constexpr std::size_t kBeams = 720;
+  scan.angle_increment = static_cast<float>(-2.0 * M_PI / kBeams);
+  scan.angle_min = static_cast<float>(M_PI * (1.0 - 1.0 / kBeams));
+  scan.angle_max = -scan.angle_min;
+  scan.time_increment = 0.1F / kBeams;
+  scan.scan_time = 0.1F;
+  scan.range_min = 0.1F;
+  scan.range_max = 40.0F;
+  scan.ranges.assign(kBeams, HUGE_VALF);
+  for (const urban_nav_core::Beam& beam : sweep.beams) scan.ranges[beam.column] = beam.range;
+  return scan;
+}
+
+/// The same robot with a planar laser, in a namespace of its own.
+class PlanarGraph : public urban_nav_ros::testing::Listener {
+ public:
+  PlanarGraph() : Listener("planar/laser_odometry"), receipts_("planar/laser_odometry") {
+    keep("planar/lo/odometry", odometry);
+    keep("planar/lo/status", statuses);
+  }
+  void place(const std::string& frame, const Pose& T_base_laser) {
+    tf2_msgs::TFMessage message;
+    message.transforms.push_back(
+        urban_nav_ros::toStaticTransform(urban_nav_core::frames::kBaseLink, frame, T_base_laser));
+    EXPECT_TRUE(receipts_.await({{"/tf_static", 1}}, [&] { tf_static_.publish(message); }));
+  }
+  void show(const Sweep& sweep, const std::string& frame) {
+    EXPECT_TRUE(receipts_.await({{"planar/scan", 1}}, [&] { scans_.publish(toScanMessage(sweep, frame)); }));
+  }
+  bool isNamed(const std::string& fault) const {
+    for (const auto& array : diagnostics)
+      for (const auto& status : array.status)
+        if (status.message.find(fault) != std::string::npos) return true;
+    return false;
+  }
+
+  std::vector<nav_msgs::Odometry> odometry;
+  std::vector<urban_nav_msgs::LaserOdometryStatus> statuses;
+
+ private:
+  const urban_nav_ros::testing::Receipts receipts_;
+  ros::Publisher scans_ = advertise<sensor_msgs::LaserScan>("planar/scan");
+  ros::Publisher tf_static_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
+};
+
+TEST(LaserOdometryNodelet, FollowsTheScansOfAHorizontalPlanarLaserAndRefusesAVerticalOne) {
+  PlanarGraph graph;
+  ASSERT_TRUE(PlanarGraph::until([&] { return graph.isConnected(); }));
+  const SpinningLidar laser = makePlanarLaser();
+  const BoxWorld world = makeOffice(1);
+  const auto motion = makeFigureEight(4.0, 1.5, 40.0);
+  graph.place("vertical", Pose(urban_nav_core::expSo3({M_PI / 2.0, 0.0, 0.0}), {0.0, 0.2, 0.5}));
+  graph.show(laser.scan(world, motion, 0.0, 1), "vertical");
+  EXPECT_TRUE(PlanarGraph::until([&] { return graph.isNamed("vertical is tilted by 90 deg against base_link"); }));
+
+  graph.place("laser", laser.T_base_lidar);
+  constexpr int kScans = 16;
+  for (int i = 1; i <= kScans; ++i) graph.show(laser.scan(world, motion, 0.1 * i, 1), "laser");
+  ASSERT_TRUE(PlanarGraph::until([&] { return graph.odometry.size() == kScans; })) << graph.odometry.size();
+  const auto last = urban_nav_ros::toPose(graph.odometry.back().pose.pose);
+  ASSERT_TRUE(last);
+  EXPECT_LT(distanceBetween(*last, motion(0.1).inverse() * motion(0.1 * kScans)), 0.02);
+  EXPECT_EQ(graph.odometry.back().pose.pose.position.z, 0.0);
+  EXPECT_GT(graph.odometry.back().pose.covariance[14], 1e-7);  // of the height, which is assumed
+  ASSERT_TRUE(PlanarGraph::until([&] { return graph.statuses.size() == kScans; }));
+  EXPECT_EQ(graph.statuses.back().status, urban_nav_msgs::LaserOdometryStatus::OK) << graph.statuses.back().message;
+  EXPECT_EQ(graph.statuses.back().reason_name, "planar");
+  EXPECT_TRUE(graph.statuses.back().deskewed);
+}
 
 TEST(LaserOdometryNodelet, FollowsADriveAndReportsFaults) {
   LaserGraph graph;

@@ -50,7 +50,12 @@ void reject(MetricClosure& metric, LoopReason reason, const std::string& sentenc
 
 ClosureVerifier::ClosureVerifier(const Parameters& parameters, double timeout, urban_nav_live::StoreWriterLink& store,
                                  Listener listener)
-    : parameters_(parameters), timeout_(timeout), store_(store), listener_(std::move(listener)), loop_(kMaxInputs) {
+    : parameters_(parameters),
+      timeout_(timeout),
+      store_(store),
+      listener_(std::move(listener)),
+      proposals_(parameters.registration.voxel_size),
+      loop_(kMaxInputs) {
   urban_nav_live::WorkerLoop<Input>::Steps steps;
   steps.handle = [this](Input& input) { handle(input); };
   steps.idle = [this] { return verifyNext(); };
@@ -58,7 +63,7 @@ ClosureVerifier::ClosureVerifier(const Parameters& parameters, double timeout, u
 }
 
 ClosureVerifier::Counts ClosureVerifier::counts() const {
-  return {loop_.dropped(), waits_, stereo_, icp_, rejected_, parts_};
+  return {loop_.dropped(), waits_, stereo_, icp_, rejected_, parts_, proposed_};
 }
 
 bool ClosureVerifier::finishSession(std::chrono::milliseconds timeout) {
@@ -115,12 +120,15 @@ void ClosureVerifier::addStep(const urban_nav_core::RelativePose& step) {
 }
 
 void ClosureVerifier::endSession(const SessionStarted* next) {
+  while (!loop_.isStopping() && proposeNext(true)) {
+  }
   while (!running_.empty() && !waiting_.empty() && !loop_.isStopping()) {
     const Candidate candidate = waiting_.front();
     waiting_.pop_front();
     verify(candidate, next != nullptr);
   }
   waits_ = static_cast<std::int64_t>(waiting_.size());
+  proposals_.nameRunning(running_);
   running_.clear();
   if (next == nullptr) return;
   if (next->continues) load(next->id);
@@ -170,7 +178,7 @@ bool ClosureVerifier::verifyNext() {
   openReader();
   const auto due =
       std::find_if(waiting_.begin(), waiting_.end(), [this](const Candidate& each) { return isDue(each); });
-  if (due == waiting_.end()) return false;
+  if (due == waiting_.end()) return proposeNext();
   const Candidate candidate = *due;
   waiting_.erase(due);
   waits_ = static_cast<std::int64_t>(waiting_.size());
@@ -257,8 +265,42 @@ CandidateMeasurement ClosureVerifier::measure(const TopologicalClosure& closure)
   return result;
 }
 
+bool ClosureVerifier::proposesByClouds() const {
+  if (camera_ || !parameters_.icp || running_.empty()) return false;
+  const auto& lasers = sessions_.at(running_).lasers;
+  return std::any_of(lasers.begin(), lasers.end(), [](const LaserAt& laser) { return laser.is_lidar; });
+}
+
+bool ClosureVerifier::proposeNext(bool ended) {
+  if (!reader_ || !proposesByClouds()) return false;
+  if (!std::exchange(are_stored_followed_, true))
+    for (const urban_nav_store::Session& session : reader_->sessions().all()) {
+      if (session.id == running_) continue;
+      if (sessions_.count(session.id) == 0) load(session.id);
+      for (const auto& part : sessions_[session.id].odometry.parts())
+        proposals_.follow(session.id + std::to_string(part->trajectory().front().stamp), {session.id, 0}, *part, true,
+                          true);
+    }
+  for (const auto& part : sessions_[running_].odometry.parts())
+    proposals_.follow(running_ + std::to_string(part->trajectory().front().stamp), {}, *part, false,
+                      ended || part != sessions_[running_].odometry.parts().back());
+  const auto place = proposals_.next();
+  if (!place) return false;
+  followStore();
+  if (outdated_) renewPlaceData();
+  for (const TopologicalClosure& closure : proposals_.describe(
+           *place, place_data_->cloud(resolve(place->at), urban_nav_registration::CloudPlaces::kHalfLength))) {
+    ++proposed_;
+    waiting_.push_back({closure, Clock::now()});
+  }
+  waits_ = static_cast<std::int64_t>(waiting_.size());
+  return true;
+}
+
 void ClosureVerifier::openReader() {
-  if (!reader_ && store_.isOpen()) reader_.emplace(store_.path(), Access::Read);
+  if (reader_ || !store_.isOpen()) return;
+  reader_.emplace(store_.path(), Access::Read);
+  beams_.emplace(*reader_);
 }
 
 PoseRef ClosureVerifier::resolve(const PoseRef& at) {
@@ -287,7 +329,7 @@ void ClosureVerifier::load(const SessionId& id) {
   for (const urban_nav_store::Property& property : reader_->sessions().properties(id))
     if (camera_ && property.name == urban_nav_registration::kCalibrationProperty)
       session.conversion = urban_nav_registration::findConversion(property.value, *camera_, session.has_camera);
-  session.lasers = urban_nav_registration::storedLasers(*reader_, id);
+  session.lasers = urban_nav_registration::storedBeamSources(*reader_, id);
   sessions_[id] = std::move(session);
   outdated_ = true;
 }
@@ -297,7 +339,7 @@ void ClosureVerifier::renewPlaceData() {
   for (const auto& [id, known] : sessions_)
     for (std::size_t i = 0; i < known.odometry.parts().size(); ++i)
       sessions[partName(id, i)] = {id, known.odometry.parts()[i], known.lasers, known.has_camera, known.conversion};
-  place_data_ = std::make_unique<StoredPlaceData>(std::move(sessions), reader_->keyframes(), reader_->scans());
+  place_data_ = std::make_unique<StoredPlaceData>(std::move(sessions), reader_->keyframes(), *beams_);
   if (!stage_) {
     Parameters parameters = parameters_;
     parameters.stereo = parameters.stereo && camera_;

@@ -12,6 +12,7 @@
 #include <string>
 #include <variant>
 
+#include "live/cloud_proposals.hpp"
 #include "loop_metric/candidate/closure_checks.hpp"
 #include "loop_metric/loop_metric.hpp"
 #include "loop_metric/place/stored_place_data.hpp"
@@ -19,6 +20,7 @@
 #include "urban_nav_live/worker_loop.hpp"
 #include "urban_nav_registration/keyframe/keyframe_builder.hpp"
 #include "urban_nav_registration/session/session_odometry.hpp"
+#include "urban_nav_registration/session/stored_beams.hpp"
 
 namespace loop_metric {
 
@@ -57,7 +59,8 @@ class ClosureVerifier {
   struct Counts {
     std::int64_t dropped = 0;  ///< inputs dropped because the queue was full
     std::int64_t waiting = 0, stereo = 0, icp = 0, rejected = 0;
-    std::int64_t parts = 0;  ///< parts of the running session's odometry without gaps
+    std::int64_t parts = 0;     ///< parts of the running session's odometry without gaps
+    std::int64_t proposed = 0;  ///< candidates by the similarity of clouds
   };
 
   /// `timeout`: maximum waiting time of a candidate, s. `store` must outlive this object.
@@ -103,6 +106,11 @@ class ClosureVerifier {
   void openReader();
   void load(const urban_nav_store::SessionId& id);
   void renewPlaceData();
+  /// Describes one place by its cloud, if places are proposed by clouds. Returns false if none is waiting. `ended`: the
+  /// running session has no further odometry.
+  bool proposeNext(bool ended = false);
+  /// Returns whether closures are proposed by the clouds of 3D LiDARs: without a camera no other stage proposes any.
+  bool proposesByClouds() const;
 
   const Parameters parameters_;
   const std::chrono::duration<double> timeout_;
@@ -113,16 +121,20 @@ class ClosureVerifier {
   std::optional<urban_nav_registration::MountedCamera> camera_;
   std::unique_ptr<LoopMetric> stage_;
   std::optional<urban_nav_store::Store> reader_;
+  std::optional<urban_nav_registration::BeamReader> beams_;  // of reader_
   std::map<urban_nav_store::SessionId, KnownSession> sessions_;
   urban_nav_store::SessionId running_;  // empty: none
   std::unique_ptr<StoredPlaceData> place_data_;
   bool outdated_ = true;     // place_data_ does not contain all of sessions_
   std::string store_fault_;  // at the last candidate: data of pending writes cannot be read
   std::deque<Candidate> waiting_;
+  CloudProposals proposals_;
+  bool are_stored_followed_ = false;  // places of the sessions in the store are among proposals_
   SequentialChecks checks_;
   Clock::time_point last_step_ = Clock::now();
 
-  std::atomic<std::int64_t> waits_{0}, stereo_{0}, icp_{0}, rejected_{0}, parts_{0};
+  std::atomic<std::int64_t> waits_{0}, stereo_{0}, icp_{0}, rejected_{0}, parts_{0},
+      proposed_{0};
   urban_nav_live::WorkerLoop<Input> loop_;
 };
 

@@ -14,7 +14,8 @@ std::pair<StageFault, std::string> findFault(const LoopsState& state) {
   if (state.stereo && !state.camera_fault.empty()) return {StageFault::NoCamera, state.camera_fault};
   if (state.stereo && !state.image_fault.empty()) return {StageFault::NoImages, "no keyframes: " + state.image_fault};
   if (!state.clouds) return {StageFault::None, ""};
-  if (!state.laser_fault.empty()) return {StageFault::NoLasers, "no complete clouds: " + state.laser_fault};
+  // Sweeps of a 3D LiDAR make complete clouds alone.
+  if (!state.laser_fault.empty() && state.recorder.sweeps == 0) return {StageFault::NoLasers, "no complete clouds: " + state.laser_fault};
   if (!state.laser_pose_fault.empty()) return {StageFault::NoLaserPlace, state.laser_pose_fault};
   return {StageFault::None, ""};
 }
@@ -54,7 +55,9 @@ urban_nav_live::StageReport makeReport(const LoopsState& state) {
   report.add("stereo pairs without odometry", state.recorder.keyframes.without_odometry);
   report.add("images damaged", state.damaged_images);
   report.add("scans", state.recorder.scans);
+  report.add("sweeps stored", state.recorder.sweeps);
   report.add("candidates", state.candidates);
+  report.add("candidates by the similarity of clouds", state.verifier.proposed);
   report.add("candidates that wait", state.verifier.waiting);
   report.add("accepted by stereo", state.verifier.stereo);
   report.add("accepted by ICP", state.verifier.icp);

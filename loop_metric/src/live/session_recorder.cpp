@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "live/session_recorder.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_registration/session/calibration_fingerprint.hpp"
 #include "urban_nav_registration/session/stored_keyframe.hpp"
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/lidar_sweep.hpp"
+#include "urban_nav_store/tables/mounted_lidar.hpp"
 
 namespace loop_metric {
 
@@ -15,6 +19,8 @@ using urban_nav_live::SessionNamer;
 using urban_nav_registration::kKeyframeCamera;
 using urban_nav_registration::LaserAt;
 using urban_nav_store::Access;
+using urban_nav_store::LidarSweep;
+using urban_nav_store::MountedLidar;
 using urban_nav_store::Node;
 using urban_nav_store::SessionId;
 using urban_nav_store::Store;
@@ -31,7 +37,7 @@ SessionRecorder::SessionRecorder(const urban_nav_registration::Parameters& param
     : options_(std::move(options)), store_(store), verifier_(verifier), builder_(parameters), namer_(options_.robot) {}
 
 SessionRecorder::State SessionRecorder::state() const {
-  return {session_ ? session_->id : "", builder_.counts(), scans_, refused_steps_, not_stored_};
+  return {session_ ? session_->id : "", builder_.counts(), scans_, refused_steps_, sweeps_, not_stored_};
 }
 
 void SessionRecorder::setCamera(const std::optional<urban_nav_registration::MountedCamera>& camera) {
@@ -59,6 +65,7 @@ void SessionRecorder::addPair(urban_nav_core::StereoPairWithMotion pair) {
 void SessionRecorder::addOdometry(const urban_nav_core::StampedPose& T_odom_base) {
   if (odometry_time_.add(T_odom_base.stamp)) builder_.restartOdometry();
   builder_.addOdometry(T_odom_base);
+  T_odom_base_ = T_odom_base.pose;
   storeKeyframes();
 }
 
@@ -79,11 +86,26 @@ void SessionRecorder::addScan(const std::string& frame, const urban_nav_core::Sc
         [frame, scan](Store& file, const SessionId& session) { file.scans().put(session, frame, scan); });
 }
 
+void SessionRecorder::addSweep(const std::string& frame, const urban_nav_core::Sweep& sweep) {
+  Laser& laser = lasers_[frame];
+  if (laser.role.empty())
+    laser.role = "points" + std::to_string(std::count_if(lasers_.begin(), lasers_.end(),
+                                                         [](const auto& each) { return !each.second.role.empty(); }));
+  if (laser.time.add(sweep.reference)) laser.is_next = session_.has_value();
+  if (!laser.spacing.takes(sweep.reference, T_odom_base_)) return;
+  ++sweeps_;
+  store(laser.is_next, [row = LidarSweep{"", laser.role, sweep.reference, LidarSweep::pack(sweep)}](
+                           Store& file, const SessionId& session) mutable {
+    row.session = session;
+    urban_nav_store::TableStore<LidarSweep>(file).put(row);
+  });
+}
+
 void SessionRecorder::setLaser(const std::string& frame, const urban_nav_core::Pose& T_base_laser) {
   const auto laser = lasers_.find(frame);
   if (laser == lasers_.end() || laser->second.T_base_laser) return;
   laser->second.T_base_laser = T_base_laser;
-  if (session_) verifier_.push(LaserAt{frame, T_base_laser});
+  if (session_) verifier_.push(LaserAt{storedName(frame, laser->second), T_base_laser, 0, !laser->second.role.empty()});
   storeSession();
 }
 
@@ -150,7 +172,7 @@ void SessionRecorder::begin(const SessionStep& first) {
   verifier_.push(ClosureVerifier::SessionStarted{session_->id, named.continues});
   for (auto& [frame, laser] : lasers_) {
     laser.is_next = false;
-    if (laser.T_base_laser) verifier_.push(LaserAt{frame, *laser.T_base_laser});
+    if (laser.T_base_laser) verifier_.push(LaserAt{storedName(frame, laser), *laser.T_base_laser, 0, !laser.role.empty()});
   }
   for (Write& write : std::exchange(before_, {})) post(std::move(write));
 }
@@ -158,15 +180,20 @@ void SessionRecorder::begin(const SessionStep& first) {
 void SessionRecorder::storeSession() {
   if (!session_) return;
   std::vector<urban_nav_store::Extrinsic> extrinsics;
-  for (const auto& [frame, laser] : lasers_)
-    if (laser.T_base_laser) extrinsics.push_back({frame, *laser.T_base_laser});
+  std::vector<MountedLidar> lidars;
+  for (const auto& [frame, laser] : lasers_) {
+    if (!laser.T_base_laser) continue;
+    if (laser.role.empty()) extrinsics.push_back({frame, *laser.T_base_laser});
+    else lidars.push_back({session_->id, laser.role, frame, *laser.T_base_laser});
+  }
   std::string fingerprint;
   if (const auto& camera = builder_.camera()) {
     extrinsics.push_back({kKeyframeCamera, camera->T_base_left});
     fingerprint = camera_;
   }
-  post([session = *session_, extrinsics, fingerprint](Store& file, const SessionId&) {
+  post([session = *session_, extrinsics, lidars, fingerprint](Store& file, const SessionId&) {
     file.sessions().put(session);
+    for (const MountedLidar& lidar : lidars) urban_nav_store::TableStore<MountedLidar>(file).put(lidar);
     for (const urban_nav_store::Extrinsic& extrinsic : extrinsics) file.sessions().put(session.id, extrinsic);
     if (fingerprint.empty()) return;
     file.sessions().put(session.id,

@@ -374,7 +374,7 @@ TEST_F(PoseGraphNodelet, MapToOdomTakesTheRobotToItsPoseWhenTheNodeletIsStartedI
     const auto runs = trajectory().segments;  // empty until the store has been read
     return !runs.empty() && runs.back().stamps.back() == urban_nav_ros::toRosTime(toStamp(pose));
   };
-  ASSERT_TRUE(listener().receipts.await({{"vo/odometry", 6}}, [&] {
+  ASSERT_TRUE(listener().receipts.await({{"odometry", 6}}, [&] {
     for (int i = 30; i <= 35; ++i) receive(i, odomPose(i));
   }));
   drive(25, 29);  // data in between are lost, and so is their odometry

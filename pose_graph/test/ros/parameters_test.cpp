@@ -26,8 +26,8 @@ class NamedNodelet : public urban_nav_ros::testing::Listener {
   explicit NamedNodelet(const std::string& name) : Listener(name + "/pose_graph"), receipts_(name + "/pose_graph") {
     keep(name + "/graph/path", paths);
     keep("/tf", transforms);
-    steps_ = advertise<urban_nav_msgs::RelativePose>(name + "/vo/relative_pose");
-    odometry_ = advertise<nav_msgs::Odometry>(name + "/vo/odometry");
+    steps_ = advertise<urban_nav_msgs::RelativePose>(name + "/odometry/relative_pose");
+    odometry_ = advertise<nav_msgs::Odometry>(name + "/odometry");
   }
 
   void drive(int from, int to) {
@@ -165,7 +165,7 @@ TEST(NodeletParameters, LimitTheInputsThatWait) {
   ASSERT_TRUE(all.call("reset"));
   ASSERT_TRUE(few.call("reset"));
   all.drive(0, kSteps);
-  EXPECT_TRUE(few.receipts().await({{"quiet/vo/relative_pose", kSteps}}, [&] { few.drive(0, kSteps); }));
+  EXPECT_TRUE(few.receipts().await({{"quiet/odometry/relative_pose", kSteps}}, [&] { few.drive(0, kSteps); }));
   EXPECT_TRUE(all.until([&] { return pathMetres("renamed") > kSteps - 0.5; }));
   EXPECT_TRUE(few.until([&] { return pathMetres("quiet") > 0.5; }));
   EXPECT_LT(pathMetres("quiet"), kSteps - 0.5) << "the oldest of more than two that wait are dropped";

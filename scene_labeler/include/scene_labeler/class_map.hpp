@@ -12,20 +12,27 @@
 
 namespace scene_labeler {
 
-/// Map from the labels of a source to classes. Without a file, labels are the numbers of classes.
+/// Map from the labels of a source to classes. The default map takes labels as the numbers of classes.
 class ClassMap {
  public:
   ClassMap() = default;
-  /// Reads `id,class`; class `ignore` gives None. Throws UserError for an unknown class or an id that is listed twice.
-  explicit ClassMap(const std::string& path);
+  /// Takes the labels of a public data set (`kitti`, `semantickitti`, `nuscenes`; class_tables.cpp), or reads a file
+  /// `id,class`; class `ignore` gives None. Throws UserError for a file that does not exist, an unknown class or an id
+  /// that is listed twice.
+  explicit ClassMap(const std::string& name_or_path);
 
-  /// Returns the class of each label. Throws UserError naming `where` for a label that is not in the file.
+  /// Returns the class of each label. Throws UserError naming `where` for a label that is not in the map.
   std::vector<SceneClass> toClasses(const std::vector<std::int64_t>& labels, const std::string& where) const;
-  /// Returns the class of a label; nullopt if it is not in the file, or without a file if it is not a class.
+  /// Returns the class of a label; nullopt if it is not in the map.
   std::optional<SceneClass> classOf(std::int64_t label) const;
+  /// Returns whether this is the default map.
+  bool isOwnNumbers() const { return expected_ids_.empty(); }
 
  private:
-  std::string path_;
+  void readTable(const std::string& path);
+
+  std::string expected_ids_;  // for errors; empty: the numbers of classes
+  std::int64_t id_bits_ = ~0;
   std::map<std::int64_t, SceneClass> classes_;
 };
 

@@ -10,6 +10,7 @@ namespace scene_labeler {
 /// Parameters of the stage, one member per row of table().
 struct Parameters {
   std::string model;
+  double precision;  // share of the sure labels that is right
   int superpixel;              // px
   int samples;                 // per class
   double spacing;              // m

@@ -10,6 +10,7 @@
 namespace scene_labeler {
 namespace {
 
+/// Below it, another class may be as probable; whether a view is sure is decided by the model's precision.
 constexpr float kSureWhenFused = 0.5F;
 constexpr float kLeastProbability = 1e-6F;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "labelling/spread.hpp"
+#include "labelling/sure_rule.hpp"
 #include "scene_labeler/labelling/fuse.hpp"
 #include "scene_labeler/labelling/superpixels.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
@@ -12,20 +13,11 @@
 namespace scene_labeler {
 namespace {
 
-constexpr float kSureProbability = 0.5F;
-/// In a scene unlike the training data, the model's probabilities are too high.
-constexpr float kNovelSceneShare = 0.1F, kSureInNovelScene = 0.7F, kSureOfOtherDevice = 0.8F, kSureInNewPlace = 0.8F;
-
-/// Returns the least probability of a certain answer: higher for a device other than that of the training data, and for
-/// a scene with many returns unlike these.
-float leastSureProbability(const LabelModel& model, const Scene& scene, const std::vector<std::uint8_t>& is_asked,
-                           const std::vector<std::uint8_t>& is_novel, double share_unlike) {
-  if (isNewPlace(share_unlike)) return kSureInNewPlace;
-  if (scene.device != model.device) return kSureOfOtherDevice;
-  const auto asked = std::count(is_asked.begin(), is_asked.end(), std::uint8_t{1}),
-             novel = std::count(is_novel.begin(), is_novel.end(), std::uint8_t{1});
-  return static_cast<float>(novel) > kNovelSceneShare * static_cast<float>(asked) ? kSureInNovelScene
-                                                                                  : kSureProbability;
+double shareAmong(const std::vector<std::uint8_t>& members, const std::vector<std::uint8_t>& all) {
+  const auto count = std::count(all.begin(), all.end(), std::uint8_t{1});
+  return count == 0 ? 0.0
+                    : static_cast<double>(std::count(members.begin(), members.end(), std::uint8_t{1})) /
+                          static_cast<double>(count);
 }
 
 /// Fuses the log probabilities of the returns over patches, in place.
@@ -126,25 +118,32 @@ SceneLabels labelScene(const LabelModel& model, const Scene& scene, int superpix
     is_novel[i] = model.countOutside(table.row(i)) > model.novelty.limit ? 1 : 0;
   });
   result.share_unlike = model.place_novelty.shareUnlike(model.bins, table, is_asked);
-  const float least_sure = leastSureProbability(model, scene, is_asked, is_novel, result.share_unlike);
+  const SureRule rule(model, {scene.device != model.device, result.share_unlike, shareAmong(is_novel, is_asked)});
   result.patches = makePatches(scene, superpixels);
   for (std::size_t i = 0; i < count; ++i)
     if (!scene.isAsked(i)) result.patches[i] = kNoPatch;
   fusePatches(model, result.patches, logs);
   smoothInScene(scene, classes, logs);
   if (!scene.view.image.empty()) spreadInScene(scene, model.classes, logs);
+  std::vector<float> fused(classes);
   for (std::size_t i = 0; i < count; ++i) {
     if (is_asked[i] == 0) continue;
     float sum = 0.0F;
     float* probabilities = result.probabilities.data() + i * classes;
     for (std::size_t k = 0; k < classes; ++k) sum += probabilities[k] = std::exp(logs[i * classes + k]);
     for (std::size_t k = 0; k < classes; ++k) probabilities[k] /= sum;
+    std::copy_n(probabilities, classes, fused.begin());
     doubtKinds(result.share_unlike, model.classes, probabilities);
     const auto best =
         static_cast<std::size_t>(std::max_element(probabilities, probabilities + classes) - probabilities);
     result.labels[i] = model.classes[best];
-    result.unsure[i] = is_novel[i] != 0 || probabilities[best] < least_sure ? 1 : 0;
+    result.unsure[i] = rule.isUnsure(fused[best], probabilities[best], is_novel[i] != 0) ? 1 : 0;
   }
+  if (rule.testsNovelty())
+    urban_nav_core::forEach(count, 64, [&](std::size_t i) {
+      if (is_asked[i] != 0 && result.unsure[i] == 0)
+        result.unsure[i] = model.place_novelty.isNovel(model.bins, table.row(i)) ? 1 : 0;
+    });
   if (!superpixels.numbers.empty()) result.image = paintSuperpixels(scene, superpixels, result);
   return result;
 }

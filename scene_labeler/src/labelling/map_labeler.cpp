@@ -12,7 +12,7 @@ namespace scene_labeler {
 namespace {
 
 constexpr double kSquareEdge = 10.0;  // m
-constexpr float kFusedSure = 0.5F;
+constexpr float kFusedSure = 0.5F;   // as kSureWhenFused of DriveLabeler
 constexpr float kLeastFused = 1e-6F;
 
 int toSquare(double coordinate) { return static_cast<int>(std::floor(coordinate / kSquareEdge)); }

@@ -20,11 +20,16 @@ StampNs scanEnd(const urban_nav_core::PlanarScan& scan) {
   return scan.stamp + static_cast<StampNs>(std::llround(1e9 * std::max(seconds, 0.0)));
 }
 
+std::shared_ptr<const LabelModel> withPrecision(LabelModel model, double precision) {
+  model.precision = precision;
+  return std::make_shared<const LabelModel>(std::move(model));
+}
+
 }  // namespace
 
 LiveLabels::LiveLabels(const Parameters& parameters, LabelModel model, Outputs outputs)
     : parameters_(parameters),
-      model_(std::make_shared<const LabelModel>(std::move(model))),
+      model_(withPrecision(std::move(model), parameters.precision)),
       teaching_(parameters, model_),
       outputs_(std::move(outputs)) {
   reset();
@@ -78,7 +83,7 @@ bool LiveLabels::adoptTaughtModel() {
     side.window.reset();
     side.labeler.reset();
   }
-  model_ = std::make_shared<const LabelModel>(std::move(*taught));
+  model_ = withPrecision(std::move(*taught), parameters_.precision);
   return true;
 }
 

@@ -12,8 +12,9 @@ namespace scene_labeler {
 namespace {
 
 constexpr const char* kModelName = "model of scene_labeler";
-constexpr std::uint32_t kOldestVersion = 2;  // without samples
-constexpr std::uint32_t kModelVersion = 3;
+constexpr std::uint32_t kOldestVersion = 2;      // without samples
+constexpr std::uint32_t kThresholdsVersion = 4;  // the first with thresholds of sure answers
+constexpr std::uint32_t kModelVersion = 4;
 constexpr float kLeastShare = 1e-3F;  // of a forest's votes, lower bound before the logarithm
 constexpr std::size_t kMostFeatures = 255;
 
@@ -73,6 +74,7 @@ std::string printModel(LabelModel model) {
   urban_nav_core::Archive archive;
   model.archive(archive);
   model.samples.archive(archive, model.bins.columns(), model.classes.size());
+  model.sure.archive(archive);
   return urban_nav_core::seal(kModelName, kModelVersion, archive.take());
 }
 
@@ -83,6 +85,7 @@ LabelModel parseModel(std::string_view bytes, const std::string& name) {
     urban_nav_core::Archive archive(unsealed.content, kModelName);
     model.archive(archive);
     if (unsealed.version > kOldestVersion) model.samples.archive(archive, model.bins.columns(), model.classes.size());
+    if (unsealed.version >= kThresholdsVersion) model.sure.archive(archive);
     archive.finish();
     model.place_novelty = PlaceNovelty(model.features, model.bins, model.samples);
   } catch (const urban_nav_core::DataError& error) {

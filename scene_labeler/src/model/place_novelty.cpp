@@ -91,9 +91,9 @@ void PlaceNovelty::Aspect::learn(const ModelSamples& stored, std::size_t row_len
 }
 
 PlaceNovelty::PlaceNovelty(FeatureSet features, const FeatureBins& bins, const ModelSamples& samples) {
-  look_.columns = appearanceColumns(features);
+  appearance_.columns = appearanceColumns(features);
   shape_.columns = shapeColumns(features);
-  look_.learn(samples, bins.columns());
+  appearance_.learn(samples, bins.columns());
   shape_.learn(samples, bins.columns());
 }
 
@@ -111,22 +111,35 @@ double PlaceNovelty::Aspect::shareUnlike(const FeatureBins& bins, const FeatureT
   return static_cast<double>(unlike) / static_cast<double>(drawn);
 }
 
+bool PlaceNovelty::Aspect::isNovel(const FeatureBins& bins, const float* row) const {
+  return !samples.empty() && !std::isnan(row[columns.front()]) && !hasNear(encode(bins, row));
+}
+
+bool PlaceNovelty::isNovel(const FeatureBins& bins, const float* row) const {
+  const std::array<const Aspect*, 2> aspects = {&appearance_, &shape_};
+  return std::any_of(aspects.begin(), aspects.end(), [&](const Aspect* aspect) { return aspect->isNovel(bins, row); });
+}
+
 double PlaceNovelty::shareUnlike(const FeatureBins& bins, const FeatureTable& table,
                                  const std::vector<std::uint8_t>& is_asked) const {
-  return std::max(look_.shareUnlike(bins, table, is_asked), shape_.shareUnlike(bins, table, is_asked));
+  return std::max(appearance_.shareUnlike(bins, table, is_asked), shape_.shareUnlike(bins, table, is_asked));
 }
 
 bool isNewPlace(double share_unlike) { return 2.0 * share_unlike > kUsualShare + kNewPlaceShare; }
 
+double excessNovelty(double share_unlike) {
+  return std::clamp((share_unlike - kUsualShare) / (kNewPlaceShare - kUsualShare), 0.0, 1.0);
+}
+
 std::string newPlaceWarning(std::size_t new_place_frames, std::size_t frames) {
   if (new_place_frames == 0 || 4 * new_place_frames < frames) return "";
   return std::to_string(new_place_frames) + " of " + std::to_string(frames) +
-         " frames show a kind of place that is not in the training data: labels there are unsure. Train the model with "
-         "corrections (labels train --add)";
+         " frames show a kind of place that is not in the training data: more labels are unsure there. Train the model "
+         "with corrections (labels train --add)";
 }
 
 void doubtKinds(double share_unlike, const std::vector<SceneClass>& classes, float* probabilities) {
-  const double novelty = std::clamp((share_unlike - kUsualShare) / (kNewPlaceShare - kUsualShare), 0.0, 1.0);
+  const double novelty = excessNovelty(share_unlike);
   if (novelty == 0.0) return;
   const auto doubt = static_cast<float>(kMostReduction * novelty);
   for (const bool of_ground : {true, false}) {

@@ -72,4 +72,11 @@ void fitPatchFusion(const HeldOutPatches& held_out, LabelModel& model) {
   model.patch_calibration = fitCalibration(fuseScores(held_out, sums, model.correlation));
 }
 
+HeldOutScores fusedAsByModel(const HeldOutPatches& held_out, const LabelModel& model) {
+  HeldOutScores fused = fuseScores(held_out, sumPatches(held_out), model.correlation);
+  for (std::size_t i = 0; i < held_out.patches.size(); ++i)
+    if (held_out.patches[i] != kNoPatch) model.patch_calibration.apply(fused.scores.data() + i * fused.classes);
+  return fused;
+}
+
 }  // namespace scene_labeler

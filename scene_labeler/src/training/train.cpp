@@ -8,6 +8,7 @@
 #include "scene_labeler/labelling/superpixels.hpp"
 #include "scene_labeler/training/tree_training.hpp"
 #include "training/patch_fusion.hpp"
+#include "training/sure_validation.hpp"
 #include "training/svm_training.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -205,6 +206,7 @@ void scoreHeldOut(const std::vector<TrainingFold>& folds, std::size_t group, con
       held_out.points.labels.push_back(label);
       held_out.points.weights.push_back(rows.weights[i]);
       held_out.patches.push_back(rows.patches[i] == kNoPatch ? kNoPatch : first + rows.patches[i]);
+      held_out.sites.push_back(static_cast<std::uint16_t>(f));
     }
   }
 }
@@ -338,6 +340,7 @@ bool addTrees(const SamplePool& pool, const TrainingOptions& options, LabelModel
   model.patch_calibration = base->patch_calibration;
   model.patch_calibration.bias = forClasses(base->patch_calibration.bias, base->classes, pool.classes, 0.0F);
   model.correlation = base->correlation;
+  model.sure = base->sure;
   return true;
 }
 
@@ -374,6 +377,7 @@ void retrain(const std::vector<TrainingFold>& folds, const SamplePool& pool, con
   for (std::size_t i = 0; i < held_out.points.size(); ++i)
     model.calibration.apply(held_out.points.scores.data() + i * pool.classes.size());
   fitOrKeepFusion(held_out, options.base, model);
+  model.sure = measureSureThresholds(held_out, model);
 }
 
 }  // namespace
@@ -389,6 +393,7 @@ TrainedModel trainModel(std::vector<TrainingFold> folds, const TrainingOptions& 
   model.kind = options.kind;
   model.features = options.features;
   model.device = options.device;
+  if (options.base) model.precision = options.base->precision;
   model.classes = pool.classes;
   model.bins = FeatureBins(pool.values, pool.columns);
   model.calibration = model.patch_calibration = identityCalibration(pool.classes.size());

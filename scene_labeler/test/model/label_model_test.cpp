@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "scene_labeler/labelling/labeler.hpp"
 #include "support/yard.hpp"
+#include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/testing/fuzz.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -42,10 +44,10 @@ TEST_P(LabelModels, ThatAreDamagedAreRefusedOrCanBeUsed) {
     machine.vectors.resize(machine.weights.size() * model.bins.columns());
   }
   const std::string sealed = printModel(model);
-  const std::string content(urban_nav_core::unseal("model of scene_labeler", 3, sealed));
+  const std::string content(urban_nav_core::unseal("model of scene_labeler", 4, sealed));
   const std::vector<float> row(model.bins.columns(), 0.3F);
   const auto result = urban_nav_core::testing::fuzzText({content}, [&row](const std::string& text) {
-    const LabelModel read = parseModel(urban_nav_core::seal("model of scene_labeler", 3, text), "m");
+    const LabelModel read = parseModel(urban_nav_core::seal("model of scene_labeler", 4, text), "m");
     if (read.bins.columns() != row.size()) return;
     std::vector<float> logs(read.classes.size());
     read.logProbabilities(row.data(), logs.data());
@@ -68,11 +70,30 @@ TEST(LabelModelReader, RefusesOtherFilesByName) {
     }
 }
 
+TEST(LabelModel, OfVersion3HasNoThresholdsAndKeepsTheFixedOnes) {
+  const LabelModel model = testing::trainOnYards(ClassifierKind::Boosted);
+  ASSERT_FALSE(model.sure.empty());
+  urban_nav_core::Archive archive;
+  LabelModel copy = model;
+  copy.archive(archive);
+  copy.samples.archive(archive, copy.bins.columns(), copy.classes.size());
+  const LabelModel read = parseModel(urban_nav_core::seal("model of scene_labeler", 3, archive.take()), "m");
+  EXPECT_TRUE(read.sure.empty());
+  LabelModel strict = read;
+  strict.precision = 0.999;
+  const Scene scene = testing::makeYard(5).scene;
+  const SceneLabels labels = labelScene(read, scene, 12);
+  EXPECT_EQ(labels.probabilities, labelScene(model, scene, 12).probabilities);
+  EXPECT_EQ(labels.unsure, labelScene(strict, scene, 12).unsure) << "no effect of the precision";
+  for (std::size_t i = 0; i < labels.unsure.size(); ++i)
+    if (labels.unsure[i] == 0) ASSERT_GE(labels.probability(i), 0.5F);
+}
+
 TEST(LabelModel, OfANewerVersionIsRefusedByName) {
   const std::string sealed = printModel(testing::trainOnYards(ClassifierKind::Boosted));
-  const std::string content(urban_nav_core::unseal("model of scene_labeler", 3, sealed));
+  const std::string content(urban_nav_core::unseal("model of scene_labeler", 4, sealed));
   try {
-    parseModel(urban_nav_core::seal("model of scene_labeler", 4, content), "tomorrow.labels");
+    parseModel(urban_nav_core::seal("model of scene_labeler", 5, content), "tomorrow.labels");
     FAIL() << "a model of a newer version";
   } catch (const urban_nav_core::UserError& error) {
     EXPECT_NE(std::string(error.what()).find("tomorrow.labels"), std::string::npos) << error.what();

@@ -82,7 +82,7 @@ class StreetRobot : public urban_nav_ros::testing::Listener {
             if (scans) left_.publish(scan(toStamp(i)));
             if (shows) show(toStamp(i));
           }));
-      EXPECT_TRUE(receipts_.await({{"vo/odometry", 1}}, [&] { odometry_.publish(odometry); }));
+      EXPECT_TRUE(receipts_.await({{"odometry", 1}}, [&] { odometry_.publish(odometry); }));
     }
   }
   std::size_t points() const {
@@ -142,8 +142,8 @@ class StreetRobot : public urban_nav_ros::testing::Listener {
 
   const urban_nav_ros::testing::Receipts receipts_{"scene_labeler"};
   ros::Publisher tf_static_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
-  ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("vo/odometry");
-  ros::Publisher relative_ = advertise<urban_nav_msgs::RelativePose>("vo/relative_pose");
+  ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("odometry");
+  ros::Publisher relative_ = advertise<urban_nav_msgs::RelativePose>("odometry/relative_pose");
   ros::Publisher left_ = advertise<sensor_msgs::LaserScan>("laser_left/scan");
   ros::Publisher right_ = advertise<sensor_msgs::LaserScan>("laser_right/scan");
   ros::Publisher image_ = advertise<sensor_msgs::Image>("ladybug/camera4/image_raw");

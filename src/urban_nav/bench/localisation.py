@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import rosbag
 
-from support import commit, driven, show, urban_nav
+from support import SENSORS, commit, driven, show, urban_nav
 
 COLUMNS = ("world, seed", "visitor", "starts in the map", "known and right within 10 s", "median time to KNOWN, s", "starts that leave it", "KNOWN", "of all, KNOWN and wrong", "KNOWN frames", "error, median, m", "95 %", "largest",
            "NEES of position (3 is right)", "sightings: views", "clouds")
@@ -48,7 +48,7 @@ def cut(bag, begin, seconds, path):
         start = source.get_start_time() + begin
         for topic, message, stamp in source.read_messages(topics=["/tf_static"], raw=True):
             piece.write(topic, message, type(stamp).from_sec(start), raw=True)
-        topics = [topic for topic in source.get_type_and_topic_info().topics if topic.startswith(("/stereo", "/imu", "/laser"))]
+        topics = [topic for topic in source.get_type_and_topic_info().topics if topic.startswith(("/stereo", "/imu", "/laser", "/points"))]
         for topic, message, stamp in source.read_messages(topics=topics, start_time=type(stamp).from_sec(start), end_time=type(stamp).from_sec(start + seconds), raw=True):
             piece.write(topic, message, stamp, raw=True)
 
@@ -88,11 +88,13 @@ def error_columns(errors, squares):
 
 def row_of(case, arguments):
     own, _, strange = case.partition("@")
-    bags = driven(arguments.folder, own)
-    bags[1:] = driven(arguments.folder, strange) if strange else bags[1:]
+    sensors = ("lidar3d", "--lidar", arguments.lidar) if arguments.lidar else (SENSORS,)
+    bags = driven(arguments.folder, own, *sensors)
+    bags[1:] = driven(arguments.folder, strange, *sensors) if strange else bags[1:]
     out = arguments.folder / f"{bags[0].stem}_frozen"
     if not (out / "summary.json").exists():
-        urban_nav("map", bags[0], "--stages", "vo,places,loops,graph", "--closures", bags[0].with_suffix(".truth") / "closures_true.csv", "--out", out)
+        urban_nav("map", bags[0], "--stages", "lo,loops,graph" if arguments.lidar else "vo,places,loops,graph",
+                  "--closures", bags[0].with_suffix(".truth") / "closures_true.csv", "--out", out)
     mapped, truths = trajectory(out / "trajectory.tum"), [trajectory(bag.with_suffix(".truth") / "trajectory.tum") for bag in bags]
     motion = onto(mapped[1], places_at(truths[0], mapped[0]))
     dice = np.random.default_rng(arguments.seed)
@@ -122,6 +124,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="folder of simulated sessions and maps; existing ones are used")
     parser.add_argument("--case", action="append", help="WORLD:SEED:SECONDS[/ROUTE]:SECONDS[/ROUTE], or WORLD:SEED:SECONDS@WORLD:SEED:SECONDS with a stranger, repeatable (default quad:7:300:300)")
+    parser.add_argument("--lidar", help="rings of a 3D LiDAR as the only sensor (default: stereo camera, lasers, IMU and wheels); use a folder of its own")
     parser.add_argument("--starts", type=int, default=50, help="number of starts within the map (default 50)")
     parser.add_argument("--seed", type=int, default=1, help="seed of the starts")
     parser.add_argument("-o", "--output", type=Path, help="output table for a README")

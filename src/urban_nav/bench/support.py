@@ -30,14 +30,14 @@ def simulated_bag(bag, world, seed, duration, *options):
     return bag
 
 
-def driven(folder, case, sensors=SENSORS):
-    """Returns the bags of all days with a duration; existing ones are used."""
+def driven(folder, case, sensors=SENSORS, *more):
+    """Returns the bags of all days with a duration; existing ones are used. `more`: further options of `simulate`."""
     world, seed, *days = case.split(":")
     bags = []
     for day, (duration, _, route) in enumerate((each.partition("/") for each in days), 1):
         if not duration:
             continue
-        options = ("--day", day, "--sensors", sensors, *(("--route", route) if route else ()))
+        options = ("--day", day, "--sensors", sensors, *(("--route", route) if route else ()), *more)
         name = "_".join((f"{world}{seed}_day{day}", *((route,) if route else ())))
         bags.append(simulated_bag(folder / f"{name}.bag", world, seed, duration, *options))
     return bags

@@ -40,7 +40,7 @@ class LocalizationStage {
   static constexpr const char* name = "localization";
   static constexpr const char* topic = "localization";
   using Input = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr,
-                             urban_nav_core::StampedTurn, urban_nav_core::StampedPose, urban_nav_core::SessionStep,
+                             sensor_msgs::PointCloud2ConstPtr, urban_nav_core::StampedTurn, urban_nav_core::StampedPose, urban_nav_core::SessionStep,
                              LiveLocaliser::InitialPose>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
@@ -67,6 +67,7 @@ class LocalizationStage {
   NodeletParameters nodelet_;
   Parameters parameters_;
   std::vector<urban_nav_store::StoredTrajectory> map_;
+  bool has_keyframes_ = true;  // of the map
   std::unique_ptr<LocalizationPublisher> publisher_;
   pluginlib::ClassLoader<KeyframeRetrieval> plugins_{"urban_nav_registration",
                                                      "urban_nav_registration::KeyframeRetrieval"};
@@ -95,6 +96,7 @@ void LocalizationStage::openMap() {
     Store store = urban_nav_store::openForReading(nodelet_.store, urban_nav_store::Access::Frozen);
     FrozenMap map(store);
     map_ = map.sessions();
+    has_keyframes_ = map.hasKeyframes();
     publisher_ = std::make_unique<LocalizationPublisher>(node_.nh(), nodelet_);
     publisher_->publish(map_);
     publisher_->publish(LocalizationEstimate(), std::nullopt);
@@ -115,11 +117,11 @@ std::shared_ptr<KeyframeRetrieval> LocalizationStage::makeRetrieval() {
 }
 
 void LocalizationStage::subscribe() {
-  subscribeRobot(node_, nodelet_.queue_size, true, nodelet_.compressed, parameters_.icp);
+  subscribeRobot(node_, nodelet_.queue_size, nodelet_.stereo, nodelet_.compressed, parameters_.icp);
   urban_nav_ros::TopicOptions options;
   options.is_monitored = options.is_paused = false;
   options.queue = nodelet_.queue_size;
-  node_.subscribe<nav_msgs::Odometry>(urban_nav_ros::topics::kVoOdometry, options, [this](const auto& message) {
+  node_.subscribe<nav_msgs::Odometry>(urban_nav_ros::topics::kOdometry, options, [this](const auto& message) {
     publisher_->sendTransform(urban_nav_ros::toStampNs(message->header.stamp));
   });
   node_.subscribe<geometry_msgs::PoseWithCovarianceStamped>(
@@ -158,6 +160,7 @@ bool LocalizationStage::idle() {
 urban_nav_live::StageReport LocalizationStage::report() const {
   StageState state;
   state.paused = node_.gate().isPaused();
+  state.compares_images = nodelet_.stereo && has_keyframes_;
   state.localiser = localiser_->state();
   state.map = nodelet_.store;
   state.odometry_fault = node_.monitor().fault(urban_nav_ros::topic_groups::kOdometry);

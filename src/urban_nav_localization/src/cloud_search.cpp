@@ -14,6 +14,7 @@
 #include "urban_nav_registration/icp/align.hpp"
 #include "urban_nav_registration/session/session_lasers.hpp"
 #include "urban_nav_registration/session/session_odometry.hpp"
+#include "urban_nav_registration/session/stored_beams.hpp"
 
 namespace urban_nav_localization {
 
@@ -39,15 +40,18 @@ using urban_nav_registration::readOdometry;
 using urban_nav_registration::searchGlobally;
 using urban_nav_registration::SearchMode;
 using urban_nav_registration::SessionOdometry;
-using urban_nav_registration::storedLasers;
+using urban_nav_registration::storedBeamSources;
 using urban_nav_registration::storedScans;
 using urban_nav_registration::VerticalStructure;
 
 namespace {
 
 constexpr double kPlaceDistance = 5.0;      // m between places of the map; a cloud extends twice as far to both sides
-constexpr double kMinHalfLength = 3.0;      // m of a stretch that is searched for
-constexpr double kMinFirmHalfLength = 5.0;  // m of a stretch whose match may start a hypothesis
+constexpr double kMinHalfLength = 3.0;      // m of a stretch of planar scans that is searched for
+constexpr double kMinFirmHalfLength = 5.0;  // m of a stretch of planar scans whose match may start a hypothesis
+// m of a stretch of sweeps: as between two matches that are independent, and its sweeps fill the gaps between rings.
+constexpr double kMinSweepHalfLength = 1.0;
+constexpr double kMaxSweepHalfLength = 3.0;  // m; further sweeps show the same surroundings again
 constexpr double kQueryDistance = 2.0;      // m between queries
 constexpr double kLocalizedQueryDistance = 5.0;  // m between queries while Localized
 constexpr std::size_t kMaxAlignedPlaces = 3;     // of one query
@@ -89,13 +93,12 @@ Constraint carried(const Constraint& measured, const PoseWithCovariance& T_b_end
 class CloudSearch::Implementation {
  public:
   Implementation(const Parameters& parameters, const FrozenMap& map, urban_nav_store::Store& store)
-      : parameters_(parameters), demanding_(parameters.registration) {
+      : parameters_(parameters), demanding_(parameters.registration), beams_(store) {
     demanding_.min_overlap = std::max(demanding_.min_overlap, kMinOverlapWithoutPrior);
     for (const urban_nav_store::StoredTrajectory& session : map.sessions()) {
-      const std::vector<LaserAt> lasers = storedLasers(store, session.session.id);
+      const std::vector<LaserAt> lasers = storedBeamSources(store, session.session.id);
       if (lasers.empty()) continue;
-      addPlaces(session, readOdometry(store, session.session.id),
-                storedScans(store.scans(), session.session.id, lasers));
+      addPlaces(session, readOdometry(store, session.session.id), storedScans(beams_, session.session.id, lasers));
     }
   }
 
@@ -110,13 +113,15 @@ class CloudSearch::Implementation {
     return read_ < places_.size();
   }
 
-  std::optional<Stretch> due(const Localiser& localiser) const {
+  std::optional<Stretch> due(const Localiser& localiser, BeamSources sources) const {
     const OdometryChain& odometry = localiser.odometry();
     if (odometry.empty() || places_.empty()) return std::nullopt;
     const StampNs newest = odometry.trajectory().back().stamp;
     const double driven = odometry.distance(newest);
-    const double way = std::min(parameters_.registration.cloud_half_length, driven / 2.0);
-    if (way < kMinHalfLength) return std::nullopt;
+    const bool by_sweeps = sources == BeamSources::Lidars;
+    double way = std::min(parameters_.registration.cloud_half_length, driven / 2.0);
+    if (by_sweeps) way = std::min(way, kMaxSweepHalfLength);
+    if (way < (by_sweeps ? kMinSweepHalfLength : kMinHalfLength)) return std::nullopt;
     const bool is_known = localiser.now().state == LocalizationState::Localized;
     const double distance = is_known ? kLocalizedQueryDistance : kQueryDistance;
     if (last_query_ && odometry.nearestFrame(*last_query_) && driven - odometry.distance(*last_query_) < distance)
@@ -125,7 +130,14 @@ class CloudSearch::Implementation {
     Stretch stretch;
     stretch.way = way;
     stretch.at = frameAt(odometry, driven - way);
+    stretch.is_firm = by_sweeps || way >= kMinFirmHalfLength;
     return stretch;
+  }
+
+  void addMiss(const Stretch& stretch, Localiser& localiser) const {
+    const StampNs end = localiser.odometry().trajectory().back().stamp;
+    const LocalizationEstimate prior = localiser.at(stretch.at);
+    localiser.addMiss(end, prior.state == LocalizationState::Localized && near(prior).has_value());
   }
 
   bool query(const Stretch& stretch, const PointCloud& cloud, double deformation_sigma, Localiser& localiser) {
@@ -143,8 +155,7 @@ class CloudSearch::Implementation {
     if (!seen) seen = among(alike(cloud), queried);
     if (!seen) return false;
     // The match counts at the end of the stretch: all of it has been matched.
-    localiser.addMatch(end, seen->T_map_place, carried(seen->measured, *T_middle_end),
-                       stretch.way >= kMinFirmHalfLength);
+    localiser.addMatch(end, seen->T_map_place, carried(seen->measured, *T_middle_end), stretch.is_firm);
     return true;
   }
 
@@ -277,6 +288,7 @@ class CloudSearch::Implementation {
 
   const Parameters parameters_;
   urban_nav_registration::Parameters demanding_;
+  const urban_nav_registration::BeamReader beams_;
   std::vector<Drive> drives_;
   std::vector<Place> places_;
   std::size_t read_ = 0;
@@ -290,8 +302,11 @@ CloudSearch::~CloudSearch() = default;
 std::size_t CloudSearch::places() const { return implementation_->places(); }
 std::size_t CloudSearch::read() const { return implementation_->read(); }
 bool CloudSearch::readNext() { return implementation_->readNext(); }
-std::optional<CloudSearch::Stretch> CloudSearch::due(const Localiser& localiser) const {
-  return implementation_->due(localiser);
+std::optional<CloudSearch::Stretch> CloudSearch::due(const Localiser& localiser, BeamSources sources) const {
+  return implementation_->due(localiser, sources);
+}
+void CloudSearch::addMiss(const Stretch& stretch, Localiser& localiser) const {
+  implementation_->addMiss(stretch, localiser);
 }
 bool CloudSearch::query(const Stretch& stretch, const PointCloud& cloud, double deformation_sigma,
                         Localiser& localiser) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_localization/map_search.hpp"
 #include "urban_nav_registration/session/calibration_fingerprint.hpp"
+#include "urban_nav_registration/session/stored_beams.hpp"
 #include "urban_nav_registration/session/stored_keyframe.hpp"
 
 namespace urban_nav_localization {
@@ -45,11 +48,19 @@ FrozenMap::FrozenMap(Store& store) : path_(store.path()) {
                urban_nav_localization::findKeyframes(store, session)};
     if (!made.views.empty()) views_.push_back(std::move(made));
   }
-  if (views_.empty())
-    throw DataError(path_, "holds no keyframes: map stores them unless --stages leaves loops out", "");
+  const auto hasBeams = [&](const StoredTrajectory& session) {
+    return !urban_nav_registration::storedBeamSources(store, session.session.id).empty();
+  };
+  if (views_.empty() && std::none_of(sessions_.begin(), sessions_.end(), hasBeams))
+    throw DataError(path_,
+                    "holds no keyframes and no scans or sweeps: map stores them unless --stages leaves out loops and "
+                    "lasers",
+                    "");
 }
 
 std::vector<MapKeyframe> FrozenMap::findKeyframes(const urban_nav_registration::MountedCamera& camera) const {
+  if (views_.empty())
+    throw DataError(path_, "holds no keyframes: map stores them unless --stages leaves loops out", "");
   std::vector<MapKeyframe> views;
   for (const Views& each : views_) {
     bool is_known = false;

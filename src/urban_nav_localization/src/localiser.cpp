@@ -71,9 +71,10 @@ const char* toString(LocalizationReason reason) {
     case LocalizationReason::SingleMatch: return "SingleMatch";
     case LocalizationReason::Contested: return "Contested";
     case LocalizationReason::TooLongAgo: return "TooLongAgo";
-    case LocalizationReason::NotConfirmed: break;
+    case LocalizationReason::NotConfirmed: return "NotConfirmed";
+    case LocalizationReason::OdometryLost: break;
   }
-  return "NotConfirmed";
+  return "OdometryLost";
 }
 
 Localiser::Localiser(const Parameters& parameters) : parameters_(parameters) {}
@@ -81,6 +82,7 @@ Localiser::Localiser(const Parameters& parameters) : parameters_(parameters) {}
 bool Localiser::addOdometry(const urban_nav_core::RelativePose& step) {
   if (!odometry_.append(step)) return false;
   steps_.push_back(step);
+  if (step.status.health == urban_nav_core::Health::Lost) lost_.push_back({step.from, step.to});
   if (steps_.size() >= kMaxSteps) forgetOldSteps();
   return true;
 }
@@ -90,6 +92,8 @@ void Localiser::forgetOldSteps() {
   odometry_ = urban_nav_core::OdometryChain();
   for (const urban_nav_core::RelativePose& step : steps_) odometry_.append(step);
   const StampNs begin = steps_.front().from;
+  lost_.erase(std::remove_if(lost_.begin(), lost_.end(), [begin](const auto& lost) { return lost.to <= begin; }),
+              lost_.end());
   const auto first =
       std::find_if(matches_.begin(), matches_.end(), [begin](const MapMatch& match) { return match.stamp >= begin; });
   if (first == matches_.begin()) return;
@@ -230,6 +234,21 @@ PoseWithCovariance Localiser::fuse(const Hypothesis& hypothesis, StampNs stamp) 
   return now;
 }
 
+bool Localiser::isLost(StampNs after, StampNs until) const {
+  const auto lost = std::upper_bound(lost_.begin(), lost_.end(), after,
+                                     [](StampNs stamp, const auto& interval) { return stamp < interval.to; });
+  return lost != lost_.end() && lost->from < until;
+}
+
+bool Localiser::isUnconfirmedPrediction(StampNs stamp) const {
+  if (lost_.empty()) return false;
+  if (isLost(stamp - 1, stamp)) return true;
+  return std::all_of(best_.members.begin(), best_.members.end(), [&](std::size_t member) {
+    const MapMatch& match = matches_[member];
+    return !match.is_match || isLost(std::min(match.stamp, stamp), std::max(match.stamp, stamp));
+  });
+}
+
 double Localiser::distanceSinceMatch() const {
   if (odometry_.empty()) return 0.0;
   const double driven = odometry_.distance(odometry_.trajectory().back().stamp);
@@ -269,6 +288,9 @@ LocalizationEstimate Localiser::at(StampNs stamp) const {
                    "one match, without a second consistent one");
   if (second_.supporting_matches >= best_.supporting_matches || against() >= kMinMatches)
     return because(LocalizationState::Uncertain, LocalizationReason::Contested, "as many matches support another pose");
+  if (isUnconfirmedPrediction(stamp))
+    return because(LocalizationState::Uncertain, LocalizationReason::OdometryLost,
+                   "odometry was lost, and no match since then confirms the pose");
   if (unconfirmed_ >= kMaxMisses)
     return because(LocalizationState::Uncertain, LocalizationReason::NotConfirmed,
                    "keyframes of the map at this pose do not match");

@@ -117,13 +117,13 @@ class CloudSearchTest : public ::testing::Test {
       const StampNs stamp = kDay + driven_ * kPeriod;
       ASSERT_TRUE(driven_ == 0 || localiser_.addOdometry(stepTo(driven_, back(driven_ - 1), back(driven_), kDay)));
       for (std::size_t l = 0; l < 2; ++l) scans_[l].push_back(scanAt(world, back(driven_) * lasers_[l], stamp));
-      const auto stretch = search_->due(localiser_);
+      const auto stretch = search_->due(localiser_, BeamSources::PlanarLasers);
       if (!stretch) continue;
       ++looks_;
       EXPECT_GE(stretch->way, 3.0);
       const auto cloud = localCloud(localiser_.odometry(), stretch->at, stretch->way, live());
       matches_ += search_->query(*stretch, cloud, 0.01, localiser_) ? 1 : 0;
-      EXPECT_FALSE(search_->due(localiser_)) << "once each some metres";
+      EXPECT_FALSE(search_->due(localiser_, BeamSources::PlanarLasers)) << "once each some metres";
     }
   }
   std::vector<LaserScans> live() const {
@@ -189,11 +189,11 @@ TEST_F(CloudSearchTest, AStretchWithoutBeamsIsNoMatch) {
   const World world = urban_nav_core::testing::courtyard(4);
   map(world);
   for (int i = 1; i <= 80; ++i) ASSERT_TRUE(localiser_.addOdometry(stepTo(i, back(i - 1), back(i), kDay)));
-  const auto stretch = search_->due(localiser_);
+  const auto stretch = search_->due(localiser_, BeamSources::PlanarLasers);
   ASSERT_TRUE(stretch);
   EXPECT_NEAR(stretch->way, 4.0, 0.2) << "all there is";
   EXPECT_FALSE(search_->query(*stretch, {}, 0.01, localiser_));
-  EXPECT_FALSE(search_->due(localiser_)) << "it was looked for";
+  EXPECT_FALSE(search_->due(localiser_, BeamSources::PlanarLasers)) << "it was looked for";
   EXPECT_FALSE(localiser_.now().T_map_base);
 }
 

@@ -23,12 +23,13 @@ Pose poseAt(double x, double y = 0.0, double heading = 0.0) {
 /// A robot that drives a metre a second along x of the map from (10, 5).
 class LocaliserTest : public ::testing::Test {
  protected:
-  void drive(int seconds, double sigma_m = 0.01) {
+  void drive(int seconds, double sigma_m = 0.01, urban_nav_core::Health health = urban_nav_core::Health::Ok) {
     for (int i = 0; i < seconds; ++i) {
       urban_nav_core::RelativePose step;
       step.from = now_ * kSightingSecond;
       step.to = ++now_ * kSightingSecond;
       step.T_from_to = poseAt(1.0);
+      step.status.health = health;
       step.covariance.setZero();
       step.covariance.diagonal() << Eigen::Vector3d::Constant(sigma_m * sigma_m), Eigen::Vector3d::Constant(1e-6);
       ASSERT_TRUE(localiser_.addOdometry(step));
@@ -172,6 +173,49 @@ TEST_F(LocaliserTest, AMissingExpectedMatchEndsKnown) {
   EXPECT_EQ(localiser_.now().reason, LocalizationReason::NotConfirmed);
   see(12);
   expectRight(0.02);
+}
+
+TEST_F(LocaliserTest, LostOdometryEndsLocalizedUntilAMatchConfirmsThePose) {
+  drive(6);
+  for (const int second : {1, 3, 5}) see(second);
+  expectRight(0.02);
+  drive(1, 0.02, urban_nav_core::Health::Lost);
+  EXPECT_EQ(localiser_.now().state, LocalizationState::Uncertain);
+  EXPECT_EQ(localiser_.now().reason, LocalizationReason::OdometryLost);
+  EXPECT_TRUE(localiser_.now().T_map_base) << "the prediction helps to search";
+  see(7);
+  EXPECT_EQ(localiser_.now().reason, LocalizationReason::OdometryLost) << "the pose itself is still a prediction";
+  drive(2, 0.02, urban_nav_core::Health::Lost);
+  drive(1, 0.01, urban_nav_core::Health::Recovered);
+  drive(5, 0.01);
+  EXPECT_EQ(localiser_.now().reason, LocalizationReason::OdometryLost) << "good odometry starts from a predicted pose";
+  see(13, poseAt(6.0, -2.0));
+  EXPECT_EQ(localiser_.now().reason, LocalizationReason::OdometryLost) << "this match contradicts it";
+  see(14);
+  expectRight(0.05);
+  EXPECT_EQ(localiser_.at(5 * kSightingSecond).state, LocalizationState::Localized);
+  EXPECT_EQ(localiser_.at(8 * kSightingSecond).reason, LocalizationReason::OdometryLost) << "a lost frame";
+  EXPECT_EQ(localiser_.at(10 * kSightingSecond).state, LocalizationState::Localized) << "confirmed by second 14";
+}
+
+TEST_F(LocaliserTest, AMatchBeforeTheLossConfirmsNothingHoweverLateItArrives) {
+  drive(6);
+  for (const int second : {1, 3}) see(second);
+  drive(2, 0.02, urban_nav_core::Health::Lost);
+  drive(2, 0.01);
+  see(6);
+  EXPECT_EQ(localiser_.now().reason, LocalizationReason::OdometryLost);
+  see(9);
+  expectRight(0.05);
+}
+
+TEST_F(LocaliserTest, AnInitialPoseDoesNotConfirmAPrediction) {
+  drive(6);
+  for (const int second : {1, 3, 5}) see(second);
+  drive(2, 0.02, urban_nav_core::Health::Lost);
+  drive(2, 0.01);
+  localiser_.addInitialPose(9 * kSightingSecond, {truth(9), 0.01 * urban_nav_core::Matrix6d::Identity()});
+  EXPECT_EQ(localiser_.now().reason, LocalizationReason::OdometryLost);
 }
 
 TEST_F(LocaliserTest, OldMatchesAreDropped) {

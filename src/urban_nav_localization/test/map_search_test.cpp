@@ -158,7 +158,7 @@ TEST_F(MapSearchTest, AnInvalidKeyframeIsAFailedComparison) {
 }
 
 TEST_F(MapSearchTest, AStoreWithoutSessionViewsOrCameraIsNamed) {
-  EXPECT_THROW(FrozenMap{*store_}, DataError) << "no views";
+  EXPECT_THROW(FrozenMap{*store_}, DataError) << "neither views nor beams";
   drive(1);
   store_->sessions().put(id_, urban_nav_store::Property{kCalibrationProperty, "640x480 1 2 3"});
   const FrozenMap map(*store_);

@@ -87,6 +87,23 @@ std::optional<Pose> StaticTransforms::lookup(const std::string& to, const std::s
   return up_to->T_root_frame.inverse() * up_from->T_root_frame;
 }
 
+void StaticTransforms::addMoving(const std::string& parent, const std::string& child) {
+  moving_[bare(child)] = bare(parent);
+}
+
+std::string StaticTransforms::findMoving(const std::string& to, const std::string& from) const {
+  std::string frame = bare(from), moving;
+  for (std::size_t steps = 0; steps <= parents_.size() + moving_.size(); ++steps) {
+    if (frame == bare(to)) return moving;
+    const auto link = parents_.find(frame);
+    const auto moved = moving_.find(frame);
+    if (link == parents_.end() && moved == moving_.end()) return "";
+    if (link == parents_.end() && moving.empty()) moving = frame;
+    frame = link == parents_.end() ? moved->second : link->second.parent;
+  }
+  return "";  // cycle of frames
+}
+
 bool StaticTransforms::hasParent(const std::string& child) const { return parents_.count(bare(child)) > 0; }
 
 bool StaticTransforms::has(const std::string& frame) const {

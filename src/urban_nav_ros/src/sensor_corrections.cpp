@@ -31,7 +31,9 @@ SensorCorrections toCorrections(const SensorCorrectionParameters& parameters) {
   corrections.lasers = {{{parameters.laser_left_range_scale, parameters.laser_left_angle_scale,
                           toNs(parameters.laser_left_delay), parameters.laser_left_time_scale},
                          {parameters.laser_right_range_scale, parameters.laser_right_angle_scale,
-                          toNs(parameters.laser_right_delay), parameters.laser_right_time_scale}}};
+                          toNs(parameters.laser_right_delay), parameters.laser_right_time_scale},
+                         {parameters.scan_range_scale, parameters.scan_angle_scale, toNs(parameters.scan_delay),
+                          parameters.scan_time_scale}}};
   return corrections;
 }
 

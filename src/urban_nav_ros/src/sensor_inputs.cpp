@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_ros/sensor_inputs.hpp"
 
+#include <algorithm>
+#include <array>
 #include <boost/make_shared.hpp>
+#include <optional>
 
 #include "urban_nav_ros/laser_scan.hpp"
 #include "urban_nav_ros/parameters.hpp"
@@ -11,10 +14,14 @@ namespace urban_nav_ros {
 
 namespace {
 
-/// Returns the laser of a topic: 0 left, 1 right, -1 none.
-int findLaser(const std::string& topic) {
-  if (topic == topics::kLaserLeft) return 0;
-  return topic == topics::kLaserRight ? 1 : -1;
+constexpr std::array<const char*, 3> kLaserTopics = {{topics::kLaserLeft, topics::kLaserRight, topics::kScan}};
+constexpr std::array<const char*, 3> kLaserNames = {{"laser_left", "laser_right", "scan"}};
+
+/// Returns the index of the laser of a topic, as in SensorCorrections; nullopt for other topics.
+std::optional<std::size_t> findLaser(const std::string& topic) {
+  const auto found = std::find(kLaserTopics.begin(), kLaserTopics.end(), topic);
+  if (found == kLaserTopics.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - kLaserTopics.begin());
 }
 
 bool isIdentity(const urban_nav_core::LaserConvention& convention) {
@@ -74,14 +81,14 @@ sensor_msgs::NavSatFixConstPtr SensorInputs::correct(const std::string& topic,
 
 sensor_msgs::LaserScanConstPtr SensorInputs::correct(const std::string& topic,
                                                      const sensor_msgs::LaserScanConstPtr& message) const {
-  const int laser = findLaser(topic);
-  if (laser < 0) return message;
-  const urban_nav_core::LaserConvention& convention = corrections_.lasers[static_cast<std::size_t>(laser)];
+  const std::optional<std::size_t> laser = findLaser(topic);
+  if (!laser) return message;
+  const urban_nav_core::LaserConvention& convention = corrections_.lasers[*laser];
   const urban_nav_core::ScanVerdict verdict = checkUnits(*message, convention);
   std::string fault;
   if (verdict.fault != urban_nav_core::ScanFault::None) {
     fault = topic + " is not used: " + describeUnits(verdict);
-    for (const auto& setting : settingsFor(verdict, laser == 0 ? "laser_left" : "laser_right", convention))
+    for (const auto& setting : settingsFor(verdict, kLaserNames[*laser], convention))
       fault += "; repair the driver, or set input/" + setting.name + " to " + setting.value + " and start again";
   }
   {

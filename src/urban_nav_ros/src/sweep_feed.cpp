@@ -24,7 +24,8 @@ std::vector<urban_nav_core::ReadSweep> SweepFeed::add(const sensor_msgs::PointCl
   if (planar_survey_.conclude()) {
     fault_ =
         "the points of the clouds lie in one plane: this is a planar laser, not a 3D LiDAR; publish its scans as "
-        "sensor_msgs/LaserScan on laser_left/scan or laser_right/scan (pointcloud_to_laserscan makes them)";
+        "sensor_msgs/LaserScan on laser_left/scan or laser_right/scan (pointcloud_to_laserscan makes them), or on scan "
+        "for odometry";
     waiting_.clear();
     return sweeps;
   }

@@ -86,6 +86,20 @@ TEST(StaticTransforms, SurviveARing) {
   EXPECT_FALSE(transforms.lookup("a", "b"));
 }
 
+TEST(StaticTransforms, NameTheLinkThatMovesBelowAFrame) {
+  StaticTransforms transforms;
+  transforms.add(toStaticTransform("tilt_link", "laser", Pose()));
+  transforms.add(toStaticTransform("base_link", "camera", Pose()));
+  transforms.addMoving("base_link", "/tilt_link");
+  transforms.addMoving("odom", "base_link");
+  EXPECT_EQ(transforms.findMoving("base_link", "laser"), "tilt_link");
+  EXPECT_EQ(transforms.findMoving("base_link", "camera"), "");
+  EXPECT_EQ(transforms.findMoving("base_footprint", "laser"), "");
+  EXPECT_FALSE(transforms.lookup("base_link", "laser"));
+  transforms.addMoving("laser", "odom");  // a cycle
+  EXPECT_EQ(transforms.findMoving("base_footprint", "laser"), "");
+}
+
 TEST(OpticalInBody, TurnsForwardIntoDepth) {
   EXPECT_LT((opticalInBody() * Vector3d(0, 0, 1) - Vector3d(1, 0, 0)).norm(), 1e-12);   // ahead
   EXPECT_LT((opticalInBody() * Vector3d(1, 0, 0) - Vector3d(0, -1, 0)).norm(), 1e-12);  // right

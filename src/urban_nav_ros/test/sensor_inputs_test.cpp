@@ -94,7 +94,8 @@ TEST(SensorInputs, DelaysAndScalesApplyToTheTopicOfTheirSensorAlone) {
                                             {"wheels_delay", "-5000"},
                                             {"wheels_scale", "-1"},
                                             {"gps_delay", "18000"},
-                                            {"laser_right_delay", "3000"}});
+                                            {"laser_right_delay", "3000"},
+                                            {"scan_delay", "4000"}});
   const auto imu = boost::make_shared<sensor_msgs::Imu>();
   imu->header.stamp = toRosTime(kStamp);
   imu->angular_velocity.z = 0.2;
@@ -116,6 +117,7 @@ TEST(SensorInputs, DelaysAndScalesApplyToTheTopicOfTheirSensorAlone) {
   EXPECT_EQ(toStampNs(inputs.correct(topics::kGpsFix, sensor_msgs::NavSatFixConstPtr(fix))->header.stamp),
             kStamp - 18'000'000'000);
   EXPECT_EQ(toStampNs(inputs.correct(topics::kLaserRight, scan(1.0F))->header.stamp), kStamp - 3'000'000'000);
+  EXPECT_EQ(toStampNs(inputs.correct(topics::kScan, scan(1.0F))->header.stamp), kStamp - 4'000'000'000);
   EXPECT_EQ(toStampNs(inputs.correct(topics::kLaserLeft, scan(1.0F))->header.stamp), kStamp);
 }
 

@@ -39,6 +39,7 @@ TEST_F(RowsOfATable, RowsComeBackInTheOrderOfTheirKeys) {
   keyframes.forEachBetween({"s", "left", {}}, -1, 7,
                            [&](const KeyframeRow& row) { images.push_back(row.keyframe.image); });
   EXPECT_EQ(images, (std::vector<std::string>{"replaced", "image7"}));
+  EXPECT_EQ(keyframes.keysBetween({"s", "left", {}}, -2, 6), (std::vector<std::int64_t>{-2, 5}));
   const std::optional<KeyframeRow> found = keyframes.get({"s", "left", {5, "", ""}});
   ASSERT_TRUE(found);
   EXPECT_EQ(found->keyframe.features, "features");

@@ -87,12 +87,12 @@ class TrustStage {
     options.queue = nodelet_.queue_size;
     options.is_paused = false;
     options.timeout = kOdometryTimeout;
-    node.subscribeInput<nav_msgs::Odometry>(topics::kVoOdometry, options,
+    node.subscribeInput<nav_msgs::Odometry>(topics::kOdometry, options,
                                             [](const auto& message) { return toLivePose(*message); });
     options.is_monitored = false;
     node.subscribeInput<urban_nav_msgs::VoStatistics>(topics::kVoStatistics, options,
                                                       [](const auto& message) { return toFrame(*message); });
-    node.subscribeInput<urban_nav_msgs::RelativePose>(topics::kVoRelativePose, options,
+    node.subscribeInput<urban_nav_msgs::RelativePose>(topics::kRelativePose, options,
                                                       [](const auto& message) { return toLiveStep(*message); });
   }
 

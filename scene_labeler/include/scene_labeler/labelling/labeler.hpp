@@ -11,8 +11,8 @@ struct SceneLabels {
   std::vector<SceneClass> classes;     ///< classes of the model; columns of `probabilities`
   std::vector<SceneClass> labels;      ///< one per return; None: no label
   std::vector<float> probabilities;    ///< per return and class; they sum to one, or are 0 without a label
-  std::vector<std::uint8_t> unsure;    ///< 1: unlike the training data, or no class reaches 0.5 (0.7 in a scene unlike
-                                       ///< it, 0.8 with another device or in a new place)
+  std::vector<std::uint8_t> unsure;    ///< 1: unlike the training data, or less probable than the threshold for the
+                                       ///< model's precision (sure_rule.hpp)
   std::vector<std::uint32_t> patches;  ///< from makePatches()
   double share_unlike = 0.0;           ///< of PlaceNovelty, for doubtKinds()
   cv::Mat image;  ///< CV_8U, class of each superpixel, 255 without laser returns; empty without image

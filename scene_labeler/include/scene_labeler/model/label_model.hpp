@@ -11,6 +11,7 @@
 #include "scene_labeler/model/feature_bins.hpp"
 #include "scene_labeler/model/model_samples.hpp"
 #include "scene_labeler/model/place_novelty.hpp"
+#include "scene_labeler/model/sure_thresholds.hpp"
 #include "scene_labeler/model/svm_bank.hpp"
 #include "scene_labeler/model/tree_ensemble.hpp"
 
@@ -43,18 +44,20 @@ struct LabelModel {
   std::vector<std::string> sources;  ///< names of the training scenes or sessions
   ModelSamples samples;              ///< for continued training; empty in models of version 2
   PlaceNovelty place_novelty;        ///< computed from the samples; not in the file
+  SureThresholds sure;               ///< empty in models of version 3
+  double precision = kStandardPrecision;  ///< share of the sure answers that is to be right; not in the file
 
   /// Writes log probabilities of a row of features, one per class.
   void logProbabilities(const float* row, float* logs) const;
   /// Returns the number of features of a row outside the training data.
   std::uint32_t countOutside(const float* row) const;
-  /// Reads or writes everything except the samples.
+  /// Reads or writes everything except the samples and the thresholds.
   void archive(urban_nav_core::Archive& archive);
 };
 
 /// Returns the bytes of a model, with its version and a checksum.
 std::string printModel(LabelModel model);
-/// Reads a model of this or the previous version. Throws UserError with `name` if the bytes are damaged, not a model,
+/// Reads a model of this or a previous version. Throws UserError with `name` if the bytes are damaged, not a model,
 /// or of another version.
 LabelModel parseModel(std::string_view bytes, const std::string& name);
 

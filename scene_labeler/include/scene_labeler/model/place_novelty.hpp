@@ -28,6 +28,8 @@ class PlaceNovelty {
   /// than 20.
   double shareUnlike(const FeatureBins& bins, const FeatureTable& table,
                      const std::vector<std::uint8_t>& is_asked) const;
+  /// Returns whether a return, given by its row of features, is novel in appearance or in shape.
+  bool isNovel(const FeatureBins& bins, const float* row) const;
 
  private:
   static constexpr std::size_t kMostColumns = 16;
@@ -41,17 +43,21 @@ class PlaceNovelty {
 
     Codes encode(const FeatureBins& bins, const float* row) const;
     bool hasNear(const Codes& codes) const;
+    bool isNovel(const FeatureBins& bins, const float* row) const;
     double shareUnlike(const FeatureBins& bins, const FeatureTable& table,
                        const std::vector<std::uint8_t>& is_asked) const;
     void learn(const ModelSamples& stored, std::size_t row_length);
   };
 
-  Aspect look_, shape_;
+  Aspect appearance_, shape_;
 };
 
 /// Returns whether the share of novel returns, over a fifth, indicates a kind of place that is not in the training
 /// data.
 bool isNewPlace(double share_unlike);
+
+/// Returns how much a share of novel returns exceeds the usual one, a tenth: 0 up to there, 1 from three tenths on.
+double excessNovelty(double share_unlike);
 
 /// Returns a warning with the number of frames in such places; empty if they are less than a quarter of all.
 std::string newPlaceWarning(std::size_t new_place_frames, std::size_t frames);

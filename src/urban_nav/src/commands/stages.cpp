@@ -22,6 +22,7 @@ AllStages makeStages() {
   stages.push_back(makeLoStage());
   stages.push_back(makeFusionStage());
   stages.push_back(makeKeyframesStage());
+  stages.push_back(makeSweepsStage());
   stages.push_back(makePlacesStage());
   stages.push_back(makeStereoStage());
   stages.push_back(makeCalibrationStage(calibrations));

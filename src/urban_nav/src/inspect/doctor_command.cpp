@@ -5,6 +5,7 @@
 #include "base/plot.hpp"
 #include "inspect/inspect.hpp"
 #include "map/input_streams.hpp"
+#include "map/preset_options.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_input/examination/diagnosis.hpp"
@@ -16,10 +17,12 @@ namespace {
 
 urban_nav_input::SourceOptions readSourceOptions(const Arguments& arguments) {
   ParameterSet parameters = loadParameters(arguments);
+  setPresetUnits(arguments, parameters);
   urban_nav_input::SourceOptions options;
   options.topics = arguments.all("topic");
   options.calibration = arguments.get("calibration");
   options.transforms = arguments.all("transform");
+  addPresetTopics(arguments, options);
   options.rate = arguments.number("rate", 0.0, 0.01, 10000.0);
   apply(parameters.get(urban_nav_input::inputTable()), options);
   options.motion_input = "none";
@@ -124,6 +127,7 @@ Command doctorCommand() {
        false,
        true,
        {}},
+      presetOption(),
       transformOption(),
       {"--calibration",
        "FILE",
@@ -137,7 +141,7 @@ Command doctorCommand() {
       setOption(),
       threadsOption()};
   command.examples = {"urban_nav doctor robot.bag", "urban_nav doctor sequences/06 --json doctor.json"};
-  command.more_help = commonHelp;
+  command.more_help = [](const Arguments& arguments) { return presetHelp() + commonHelp(arguments); };
   command.run = runDoctor;
   return command;
 }

@@ -3,6 +3,7 @@
 
 #include "base/parameters.hpp"
 #include "map/map_pipeline.hpp"
+#include "map/preset_options.hpp"
 #include "map/stage_list.hpp"
 #include "urban_nav_core/io/text.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -32,10 +33,12 @@ std::string mcapPath(const Arguments& arguments) {
 
 MapOptions readMapOptions(const Arguments& arguments, const AllStages& stages) {
   ParameterSet parameters = loadParameters(arguments);
+  setPresetUnits(arguments, parameters);
   urban_nav_input::SourceOptions source;
   source.topics = arguments.all("topic");
   source.calibration = arguments.get("calibration");
   source.transforms = arguments.all("transform");
+  addPresetTopics(arguments, source);
   source.rate = arguments.number("rate", 0.0, 0.01, 10000.0);
   source.read_elsewhere = topicsReadByStages(stages, parameters);
   apply(parameters.get(urban_nav_input::inputTable()), source);
@@ -98,6 +101,16 @@ Option odometryOption() {
           {}};
 }
 
+Option topicOption() {
+  return {"--topic",
+          "ROLE:=NAME",
+          "topic of a bag: left, right, left_info, right_info, imu, wheels, truth, points0, ... (default: guessed and "
+          "printed)",
+          false,
+          true,
+          {}};
+}
+
 std::vector<Option> mapOptions(const AllStages& stages) {
   return {
       {"INPUT", "", "bags, or folders of KITTI, EuRoC or New College", true, true, {}},
@@ -112,13 +125,8 @@ std::vector<Option> mapOptions(const AllStages& stages) {
        false,
        false,
        {}},
-      {"--topic",
-       "ROLE:=NAME",
-       "topic of a bag: left, right, left_info, right_info, imu, wheels, truth, points0, ... (default: guessed and "
-       "printed)",
-       false,
-       true,
-       {}},
+      topicOption(),
+      presetOption(),
       transformOption(),
       {"--calibration",
        "FILE",
@@ -167,7 +175,7 @@ Command mapCommand(StageFactory make_stages, ResultRecorder record) {
   command.options = mapOptions(make_stages());
   command.examples = {"urban_nav map sequences/06 --out out",
                       "urban_nav map robot.bag --topic left:=/cam0/image_raw --set swf_vo.window=25 --out out"};
-  command.more_help = parametersHelp;
+  command.more_help = [](const Arguments& arguments) { return presetHelp() + parametersHelp(arguments); };
   command.run = [make_stages = std::move(make_stages), record = std::move(record)](const Arguments& arguments,
                                                                                    Console& console) {
     AllStages stages = make_stages();

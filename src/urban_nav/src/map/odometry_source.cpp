@@ -12,8 +12,15 @@ namespace urban_nav {
 namespace {
 
 bool hasSweeps(const urban_nav_input::SourceInfo& info) {
-  return std::any_of(info.inputs.begin(), info.inputs.end(),
+  return !info.planar_role.empty() ||
+         std::any_of(info.inputs.begin(), info.inputs.end(),
                      [](const urban_nav_input::InputStream& stream) { return stream.lidar.has_value(); });
+}
+
+/// Returns the input that a source lacks.
+std::string missingSweeps(OdometrySource source) {
+  return std::string("sweeps of a 3D LiDAR") +
+         (source == OdometrySource::Laser ? ", and no scans of a horizontal planar laser" : "");
 }
 
 /// Returns whether --stages names a stage, unlike isRequested(), which is also true in a run of all stages.
@@ -48,7 +55,7 @@ OdometrySource chooseOdometry(const MapOptions& options, const urban_nav_input::
     if (is_without_images || (usesLaser(source) && !has_sweeps))
       throw urban_nav_core::DataError(info.name,
                                       std::string("--odometry ") + toString(source) + " cannot be run: no " +
-                                          (is_without_images ? "stereo images" : "sweeps of a 3D LiDAR"),
+                                          (is_without_images ? "stereo images" : missingSweeps(source)),
                                       "");
     return source;
   };

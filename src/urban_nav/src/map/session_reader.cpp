@@ -31,6 +31,7 @@ std::unique_ptr<urban_nav_input::Source> SessionReader::openSource(const urban_n
   urban_nav_input::SourceOptions source_options = options.source;
   source_options.with_sweeps =
       std::any_of(stages_.begin(), stages_.end(), [](const Stage* stage) { return stage->describe().uses_sweeps; });
+  source_options.with_planar_sweeps = options.odometry == OdometryOption::Laser;
   const urban_nav_input::InputSession& input = context_.sessions[session_].input;
   std::unique_ptr<urban_nav_input::Source> source =
       urban_nav_input::openSource(input.paths, source_options, after, input.part);

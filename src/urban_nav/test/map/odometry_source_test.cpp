@@ -27,6 +27,22 @@ TEST(OdometrySource, AutoTakesWhatThereIs) {
   EXPECT_EQ(chooseOdometry(options, makeInfo(false, true)), OdometrySource::Laser);
 }
 
+TEST(OdometrySource, AHorizontalLaserIsASourceOfItsOwn) {
+  MapOptions options;
+  urban_nav_input::SourceInfo info = makeInfo(false, false);
+  info.planar_role = "scan";
+  EXPECT_EQ(chooseOdometry(options, info), OdometrySource::Laser);
+  options.odometry = OdometryOption::Laser;
+  EXPECT_EQ(chooseOdometry(options, info), OdometrySource::Laser);
+  info.planar_role.clear();
+  try {
+    chooseOdometry(options, info);
+    FAIL();
+  } catch (const urban_nav_core::DataError& error) {
+    EXPECT_NE(std::string(error.what()).find("no scans of a horizontal planar laser"), std::string::npos);
+  }
+}
+
 TEST(OdometrySource, StagesThatAreNamedDecide) {
   MapOptions options;
   options.stages = {"lo"};

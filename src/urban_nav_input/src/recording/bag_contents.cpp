@@ -67,8 +67,11 @@ urban_nav_ros::StaticTransforms readTransforms(Recording& recording) {
   RecordedMessages messages = recording.messages({urban_nav_ros::topics::kStaticTransforms, "tf_static"});
   while (const std::optional<RecordedMessage> each = messages.next())
     if (const auto message = each->as<tf2_msgs::TFMessage>()) transforms.add(*message);
-  for (const auto& [child, link] : readLinks(recording))
-    if (!link.moves && !transforms.hasParent(child)) transforms.add(link.first);
+  for (const auto& [child, link] : readLinks(recording)) {
+    if (transforms.hasParent(child)) continue;
+    if (link.moves) transforms.addMoving(link.first.header.frame_id, child);
+    else transforms.add(link.first);
+  }
   return transforms;
 }
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <set>
 
+#include "recording/preset_topics.hpp"
+#include "recording/role_names.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_ros/topics.hpp"
 
@@ -21,7 +23,7 @@ struct RoleNames {
   const char* word;
   const char* topic;  // of docs/architecture.md; null: none
 };
-constexpr std::array<RoleNames, 24> kRoles = {{{Role::Left, "left", topics::kLeftImage},
+constexpr std::array<RoleNames, 25> kRoles = {{{Role::Left, "left", topics::kLeftImage},
                                                {Role::Right, "right", topics::kRightImage},
                                                {Role::LeftInfo, "left_info", topics::kLeftInfo},
                                                {Role::RightInfo, "right_info", topics::kRightInfo},
@@ -31,6 +33,7 @@ constexpr std::array<RoleNames, 24> kRoles = {{{Role::Left, "left", topics::kLef
                                                {Role::LaserRight, "laser_right", topics::kLaserRight},
                                                {Role::Truth, "truth", topics::kTruthPose},
                                                {Role::Gps, "gps", topics::kGpsFix},
+                                               {Role::Scan, "scan", topics::kScan},
                                                {Role::Points0, "points0", topics::kPoints},
                                                {Role::Points1, "points1", nullptr},
                                                {Role::Points2, "points2", nullptr},
@@ -57,36 +60,6 @@ constexpr std::array<std::array<const char*, 2>, 7> kSides = {{{"left", "right"}
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string bare(const std::string& topic) { return topic.empty() || topic.front() != '/' ? topic : topic.substr(1); }
-
-bool fits(Role role, const std::string& type) {
-  switch (role) {
-    case Role::Left:
-    case Role::Right:
-    case Role::Panorama0:
-    case Role::Panorama1:
-    case Role::Panorama2:
-    case Role::Panorama3:
-    case Role::Panorama4: return isImageType(type);
-    case Role::LeftInfo:
-    case Role::RightInfo:
-    case Role::Panorama0Info:
-    case Role::Panorama1Info:
-    case Role::Panorama2Info:
-    case Role::Panorama3Info:
-    case Role::Panorama4Info: return type == "sensor_msgs/CameraInfo";
-    case Role::Imu: return type == "sensor_msgs/Imu";
-    case Role::Wheels: return type == "nav_msgs/Odometry";
-    case Role::LaserLeft:
-    case Role::LaserRight: return type == "sensor_msgs/LaserScan";
-    case Role::Truth: return type == "geometry_msgs/PoseStamped";
-    case Role::Gps: return type == "sensor_msgs/NavSatFix";
-    case Role::Points0:
-    case Role::Points1:
-    case Role::Points2:
-    case Role::Points3: return isCloudType(type);
-  }
-  return false;
-}
 
 std::string roleWords() {
   std::string words;
@@ -271,8 +244,8 @@ std::vector<std::string> splitName(const std::string& topic) {
   return parts;
 }
 
-/// Returns whether a topic name is that of clouds computed from other clouds or from images.
-bool isDerivedCloud(const std::string& topic) {
+/// Returns whether a topic name is that of clouds or scans computed from others or from images.
+bool isDerived(const std::string& topic) {
   static const std::set<std::string> kWords = {
       "map",         "submap",     "clusters", "cluster",   "obstacles", "obstacle",    "objects",   "object",
       "segmented",   "ground",     "filtered", "depth",     "camera",    "stereo",      "voxel",     "voxels",
@@ -282,15 +255,16 @@ bool isDerivedCloud(const std::string& topic) {
   return std::any_of(parts.begin(), parts.end(), [](const std::string& part) { return kWords.count(part) > 0; });
 }
 
+bool isTaken(const BagTopics& topics, const std::string& topic) {
+  return std::any_of(topics.chosen.begin(), topics.chosen.end(),
+                     [&](const auto& chosen) { return chosen.second.name == topic; });
+}
+
 /// Assigns further topics to the roles not given by the user.
 void guessPoints(const std::map<std::string, std::string>& available, BagTopics& topics) {
-  const auto isTaken = [&topics](const std::string& topic) {
-    return std::any_of(topics.chosen.begin(), topics.chosen.end(),
-                       [&](const auto& chosen) { return chosen.second.name == topic; });
-  };
   std::size_t lidar = 0;
   for (const auto& [topic, type] : available) {
-    if (!isCloudType(type) || isDerivedCloud(topic) || isTaken(topic)) continue;
+    if (!isCloudType(type) || isDerived(topic) || isTaken(topics, topic)) continue;
     while (lidar < kPointsTopics && topics.find(pointsRole(lidar))) ++lidar;
     if (lidar == kPointsTopics) return;
     topics.chosen[pointsRole(lidar)] = {topic, type};
@@ -298,10 +272,14 @@ void guessPoints(const std::map<std::string, std::string>& available, BagTopics&
 }
 
 /// Adds one line per role; panoramas share one.
-void noteTopics(const std::map<Role, ChosenTopic>& wished, BagTopics& topics) {
+void noteTopics(const std::map<Role, ChosenTopic>& wished, const std::map<Role, std::string>& presets,
+                BagTopics& topics) {
   const std::vector<std::size_t> panorama = topics.panorama();
   for (const auto& [role, topic] : topics.chosen) {
-    const std::string guessed = wished.count(role) != 0 ? "" : " (guessed)";
+    const auto preset = presets.find(role);
+    const std::string guessed = preset != presets.end() ? " (preset " + preset->second + ")"
+                                : wished.count(role) != 0 ? ""
+                                                          : " (guessed)";
     if (role < Role::Panorama0) topics.notes.push_back(std::string(toString(role)) + ": " + topic.name + guessed);
     else if (role == panoramaRole(panorama.front()))
       topics.notes.push_back(std::to_string(panorama.size()) + " cameras of a panorama: " + topic.name +
@@ -323,6 +301,43 @@ void guessOther(const std::map<std::string, std::string>& available, const RoleN
 }
 
 }  // namespace
+
+bool fits(Role role, const std::string& type) {
+  switch (role) {
+    case Role::Left:
+    case Role::Right:
+    case Role::Panorama0:
+    case Role::Panorama1:
+    case Role::Panorama2:
+    case Role::Panorama3:
+    case Role::Panorama4: return isImageType(type);
+    case Role::LeftInfo:
+    case Role::RightInfo:
+    case Role::Panorama0Info:
+    case Role::Panorama1Info:
+    case Role::Panorama2Info:
+    case Role::Panorama3Info:
+    case Role::Panorama4Info: return type == "sensor_msgs/CameraInfo";
+    case Role::Imu: return type == "sensor_msgs/Imu";
+    case Role::Wheels: return type == "nav_msgs/Odometry";
+    case Role::LaserLeft:
+    case Role::LaserRight:
+    case Role::Scan: return type == "sensor_msgs/LaserScan";
+    case Role::Truth: return type == "geometry_msgs/PoseStamped";
+    case Role::Gps: return type == "sensor_msgs/NavSatFix";
+    case Role::Points0:
+    case Role::Points1:
+    case Role::Points2:
+    case Role::Points3: return isCloudType(type);
+  }
+  return false;
+}
+
+std::optional<Role> roleFromWord(const std::string& word) {
+  const auto names =
+      std::find_if(kRoles.begin(), kRoles.end(), [&](const RoleNames& each) { return word == each.word; });
+  return names == kRoles.end() ? std::nullopt : std::optional(names->role);
+}
 
 const char* toString(Role role) {
   return std::find_if(kRoles.begin(), kRoles.end(), [role](const RoleNames& names) { return names.role == role; })
@@ -351,7 +366,11 @@ std::optional<ChosenTopic> BagTopics::find(Role role) const {
 
 BagTopics chooseTopics(const std::map<std::string, std::string>& available, const std::vector<std::string>& wishes) {
   BagTopics topics;
-  for (const std::string& wish : wishes) take(available, wish, topics);
+  for (const std::string& wish : wishes)
+    if (!findPresetWish(wish)) take(available, wish, topics);
+  std::map<Role, std::string> presets;
+  for (const std::string& wish : wishes)
+    if (const auto preset = findPresetWish(wish)) takePreset(available, *preset, topics, presets);
   const std::map<Role, ChosenTopic> wished = topics.chosen;
   guessPanorama(available, topics);
   const std::map<std::string, std::string> others = withoutPanorama(available, topics);
@@ -366,10 +385,25 @@ BagTopics chooseTopics(const std::map<std::string, std::string>& available, cons
   guessOther(available, kRoles[8], {"ground_truth", "groundtruth"}, topics);
   guessOther(available, kRoles[9], {"gps", "fix", "gnss"}, topics);
   guessPoints(available, topics);
-  noteTopics(wished, topics);
+  noteTopics(wished, presets, topics);
   if (topics.chosen.size() > wished.size())
     topics.notes.push_back("guessed from types and names; override with --topic ROLE:=NAME");
   return topics;
+}
+
+void guessScan(const std::map<std::string, std::string>& available, BagTopics& topics) {
+  if (topics.find(Role::Scan)) return;
+  const auto isCandidate = [&](const auto& each) {
+    return fits(Role::Scan, each.second) && !isDerived(each.first) && !isTaken(topics, each.first);
+  };
+  auto found = std::find_if(available.begin(), available.end(), [&](const auto& each) {
+    return isCandidate(each) && bare(each.first) == urban_nav_ros::topics::kScan;
+  });
+  if (found == available.end()) found = std::find_if(available.begin(), available.end(), isCandidate);
+  if (found == available.end()) return;
+  topics.chosen[Role::Scan] = {found->first, found->second};
+  topics.notes.push_back(std::string(toString(Role::Scan)) + ": " + found->first +
+                         " (guessed; override with --topic ROLE:=NAME)");
 }
 
 bool isImageType(const std::string& type) {

@@ -17,14 +17,27 @@ using urban_nav_core::SpecificForce;
 using urban_nav_core::StampNs;
 using urban_nav_core::Vector3d;
 
+namespace {
+
+constexpr std::array<Role, 3> kLaserRoles = {{Role::LaserLeft, Role::LaserRight, Role::Scan}};  // as sensors.lasers
+
+/// Returns the index of the role in kLaserRoles.
+std::size_t laserIndex(const std::string& role) {
+  std::size_t index = 0;
+  while (index + 1 < kLaserRoles.size() && role != toString(kLaserRoles[index])) ++index;
+  return index;
+}
+
+}  // namespace
+
 void BagSensors::addLaser(const std::string& topic, const std::string& frame,
                           const urban_nav_core::Pose& T_base_laser) {
-  const std::optional<ChosenTopic> right = topics_.find(Role::LaserRight);
-  const bool is_right = right && right->name == topic;
+  Role role = Role::LaserLeft;
+  for (const Role each : kLaserRoles)
+    if (const std::optional<ChosenTopic> chosen = topics_.find(each); chosen && chosen->name == topic) role = each;
   laser_topics_.push_back(topic);
   laser_places_.emplace_back(frame, T_base_laser);
-  lasers_.emplace_back(toString(is_right ? Role::LaserRight : Role::LaserLeft), topic,
-                       options_.sensors.lasers[is_right ? 1 : 0]);
+  lasers_.emplace_back(toString(role), topic, options_.sensors.lasers[laserIndex(toString(role))]);
 }
 
 void BagSensors::addSweep(const std::string& topic, StampNs reference, StampNs receipt) {
@@ -86,11 +99,12 @@ std::vector<SpecificForce> BagSensors::forces() const {
 
 std::optional<double> BagSensors::findDelay(const std::string& role) const {
   const urban_nav_ros::SensorCorrections& sensors = options_.sensors;
-  const std::array<std::pair<Role, StampNs>, 5> delays = {{{Role::Imu, sensors.imu_delay},
+  const std::array<std::pair<Role, StampNs>, 6> delays = {{{Role::Imu, sensors.imu_delay},
                                                            {Role::Wheels, sensors.wheels_delay},
                                                            {Role::Gps, sensors.gps_delay},
                                                            {Role::LaserLeft, sensors.lasers[0].delay},
-                                                           {Role::LaserRight, sensors.lasers[1].delay}}};
+                                                           {Role::LaserRight, sensors.lasers[1].delay},
+                                                           {Role::Scan, sensors.lasers[2].delay}}};
   for (const auto& [of, delay] : delays)
     if (role == toString(of)) return 1e-6 * static_cast<double>(delay);
   for (std::size_t i = 0; i < options_.points.delays.size(); ++i)
@@ -152,9 +166,8 @@ std::vector<Finding> BagSensors::laserGroundFindings(const std::vector<double>& 
   }
   std::vector<Finding> findings;
   for (std::size_t i = 0; i < std::min(lasers_.size(), laser_grounds_.size()); ++i) {
-    const bool is_right = lasers_[i].role() == toString(Role::LaserRight);
-    if (auto finding = laser_grounds_[i].finding(lasers_[i].role(), laser_topics_[i], stereo,
-                                                 options_.sensors.lasers[is_right ? 1 : 0].range_scale))
+    const double range_scale = options_.sensors.lasers[laserIndex(lasers_[i].role())].range_scale;
+    if (auto finding = laser_grounds_[i].finding(lasers_[i].role(), laser_topics_[i], stereo, range_scale))
       findings.push_back(std::move(*finding));
   }
   return findings;

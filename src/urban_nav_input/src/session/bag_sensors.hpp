@@ -32,7 +32,7 @@ class BagSensors {
   void add(const std::vector<Finding>& findings) {
     findings_.insert(findings_.end(), findings.begin(), findings.end());
   }
-  /// Adds the laser of a role with its mounting.
+  /// Adds the laser of a topic with its mounting.
   void addLaser(const std::string& topic, const std::string& frame, const urban_nav_core::Pose& T_base_laser);
   void placeImu(const urban_nav_core::Matrix3d& R_base_imu) {
     R_base_imu_ = R_base_imu;

@@ -16,6 +16,7 @@
 #include "session/bag_sensors.hpp"
 #include "session/bag_sweeps.hpp"
 #include "session/given_transforms.hpp"
+#include "session/planar_laser.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
@@ -49,7 +50,7 @@ constexpr urban_nav_core::StampNs kLongestWait =
     1'000'000'000;  // ns, for a topic whose stamps are earlier than those of the images
 
 constexpr const char* kBagStateName = "reader of bags";
-constexpr std::uint32_t kBagStateVersion = 10;
+constexpr std::uint32_t kBagStateVersion = 11;
 constexpr urban_nav_core::StampNs kReceiptTolerance =
     25'000'000;                         // ns: images of a pair are received one after another
 constexpr std::size_t kMostSweeps = 4;  // waiting for a pair
@@ -63,7 +64,8 @@ class BagSource : public Source {
     topics_ = chooseTopics(recording_.topicTypes(), options.topics);
     planar_clouds_ = PlanarClouds(recording_, part_, options.topics, topics_);
     info_.has_images = topics_.find(Role::Left) && topics_.find(Role::Right);
-    if (!info_.has_images && !(options.with_sweeps && topics_.find(Role::Points0)))
+    if (mayUsePlanarLaser()) guessScan(recording_.topicTypes(), topics_);
+    if (!info_.has_images && !topics_.find(Role::Points0) && !(mayUsePlanarLaser() && hasLaser(topics_)))
       throw DataError(name_,
                       "has no stereo pair of image topics: " + listImageTopics(recording_) +
                           (planar_clouds_.findings().empty()
@@ -135,6 +137,11 @@ class BagSource : public Source {
     return item;
   }
 
+  /// Returns whether scans of a planar laser are read as sweeps, if there is a horizontal one.
+  bool mayUsePlanarLaser() const {
+    return options_.with_sweeps && !topics_.find(Role::Points0) && (!info_.has_images || options_.with_planar_sweeps);
+  }
+
   void calibrate() {
     const ChosenTopic left = *topics_.find(Role::Left);
     const FirstImage seen = findFirstImage(recording_, left);
@@ -177,8 +184,8 @@ class BagSource : public Source {
 
   void place() {
     urban_nav_ros::StaticTransforms transforms = recording_.transforms();
-    giveTransforms(options_.transforms, transforms);
-    for (const std::string& given : options_.transforms) info_.notes.push_back("--transform " + given);
+    for (std::string& sentence : giveTransforms(options_.transforms, transforms))
+      info_.notes.push_back(std::move(sentence));
     sensors_.add(readerFindings(transforms.faults()));
     sensors_.add(topicFindings(recording_.topicTypes(), topics_));
     sensors_.add(planar_clouds_.findings());
@@ -186,7 +193,7 @@ class BagSource : public Source {
     if (options_.with_sweeps)
       sweeps_in_bag_ = BagSweeps(recording_, topics_, transforms, options_.points, part_, info_.has_images);
     info_.notes.insert(info_.notes.end(), sweeps_in_bag_.notes().begin(), sweeps_in_bag_.notes().end());
-    if (!info_.has_images && sweeps_in_bag_.empty())
+    if (!info_.has_images && sweeps_in_bag_.empty() && !mayUsePlanarLaser())
       throw DataError(name_, "has no images, and no sweep that can be used: " + sweeps_in_bag_.notes().back(), "");
     const auto imu =
         topics_.find(Role::Imu) ? recording_.first<sensor_msgs::Imu>(topics_.find(Role::Imu)->name) : nullptr;
@@ -197,22 +204,29 @@ class BagSource : public Source {
       info_.notes.push_back("no static tf from base_link to \"" + imu->header.frame_id + "\": the axes of " +
                             topics_.find(Role::Imu)->name +
                             " are assumed to be those of base_link for its gyroscope; its accelerometer is not used");
-    for (const Role role : {Role::LaserLeft, Role::LaserRight}) {
-      const std::optional<ChosenTopic> topic = topics_.find(role);
-      const auto scan = topic ? planar_clouds_.first(recording_, topic->name) : nullptr;
-      if (!scan) continue;
-      if (const auto T_base_laser = transforms.lookup(frames::kBaseLink, scan->header.frame_id)) {
-        info_.lasers.push_back({scan->header.frame_id, *T_base_laser});
-        laser_topics_.push_back(topic->name);
-        sensors_.addLaser(topic->name, scan->header.frame_id, *T_base_laser);
-        sensors_.add(placeFindings(scan->header.frame_id, *T_base_laser));
-      } else {
-        info_.notes.push_back("no static tf from base_link to \"" + scan->header.frame_id + "\": " + topic->name +
-                              " is not used");
-      }
-    }
+    placeLasers(transforms);
     panorama_ = BagPanorama(recording_, topics_, transforms);
     info_.panorama = panorama_.cameras();
+  }
+
+  void placeLasers(const urban_nav_ros::StaticTransforms& transforms) {
+    const bool is_alone = mayUsePlanarLaser() && !info_.has_images;
+    const PlacedLasers placed = PlacedLasers::find(recording_, topics_, planar_clouds_, transforms, is_alone);
+    info_.notes.insert(info_.notes.end(), placed.notes.begin(), placed.notes.end());
+    for (const PlacedLaser& laser : placed.lasers) {
+      info_.lasers.push_back({laser.frame, laser.T_base_laser});
+      laser_topics_.push_back(laser.topic);
+      sensors_.addLaser(laser.topic, laser.frame, laser.T_base_laser);
+      sensors_.add(placeFindings(laser.frame, laser.T_base_laser));
+    }
+    if (!mayUsePlanarLaser()) return;
+    planar_laser_ = PlanarLaser::choose(placed);
+    if (planar_laser_) {
+      info_.planar_role = planar_laser_->role();
+      info_.notes.push_back(planar_laser_->note());
+    } else if (is_alone) {
+      throw DataError(name_, PlanarLaser::describeFailure(placed, planar_clouds_.findings()), "");
+    }
   }
 
   /// Selects the sensors to read, from the topics and the extrinsics of the IMU.
@@ -233,8 +247,15 @@ class BagSource : public Source {
     return {topics_.find(Role::Left)->name, topics_.find(Role::Right)->name};
   }
 
+  /// Returns the topics whose stamps are those of the frames, or of the sweeps without images.
+  std::vector<std::string> leadingTopics() const {
+    if (info_.has_images) return imageTopics();
+    if (planar_laser_) return {planar_laser_->topic()};
+    return sweeps_in_bag_.topics();
+  }
+
   void startReading() {
-    const std::vector<std::string> leading = info_.has_images ? imageTopics() : sweeps_in_bag_.topics();
+    const std::vector<std::string> leading = leadingTopics();
     StereoFeed::Options feed;
     feed.max_lateness = kMaxLateness;
     feed.longest_wait = kLongestWait;
@@ -249,7 +270,8 @@ class BagSource : public Source {
     MessageSelection frames = recording_.select(leading, part_);
     info_.frames +=
         info_.has_images ? recording_.select(std::vector<std::string>{leading.front()}, part_).size() : frames.size();
-    if (frames.size() == 0) throw DataError(name_, info_.has_images ? "holds no images" : "holds no clouds", "");
+    if (frames.size() == 0)
+      throw DataError(name_, info_.has_images ? "holds no images" : "holds no clouds or scans", "");
     std::tie(info_.first, info_.last) =
         stamps_are_receipts_ ? std::make_pair(frames.first(), frames.last()) : findStampSpan(frames);
     if (info_.has_images) feed_->expectRange(surveyGreyRange(recording_, leading));
@@ -313,7 +335,7 @@ class BagSource : public Source {
   }
 
   void archive(urban_nav_core::Archive& archive) {
-    bool has_images = info_.has_images;
+    bool has_images = info_.has_images, has_planar_laser = planar_laser_.has_value();
     archive(has_images);
     archive.require(has_images == info_.has_images, "images in all bags, or in none");
     if (has_images) {
@@ -332,7 +354,9 @@ class BagSource : public Source {
         sensors_.addLaser(topic, place.first, place.second);
       }
     }
-    archive(panorama_, sweeps_in_bag_);
+    archive(panorama_, sweeps_in_bag_, has_planar_laser);
+    archive.require(has_planar_laser == planar_laser_.has_value(), "a horizontal planar laser in all bags, or in none");
+    if (planar_laser_) archive(*planar_laser_);
     info_.panorama = panorama_.cameras();
     if (archive.isReading()) listen();
     archive(sensors_, *wheels_, *gyroscope_);
@@ -423,8 +447,10 @@ class BagSource : public Source {
     const std::string& topic = instance.topic();
     const auto laser =
         static_cast<std::size_t>(std::find(laser_topics_.begin(), laser_topics_.end(), topic) - laser_topics_.begin());
-    if (const auto planar = sensors_.read(laser, message, instance.receipt()))
-      scans_.push_back({laser, urban_nav_core::toScan(*planar)});
+    const auto planar = sensors_.read(laser, message, instance.receipt());
+    if (!planar) return;
+    scans_.push_back({laser, urban_nav_core::toScan(*planar)});
+    if (planar_laser_ && planar_laser_->topic() == topic) sweeps_.push_back(planar_laser_->read(*planar));
   }
 
   const SourceOptions options_;
@@ -447,10 +473,11 @@ class BagSource : public Source {
   BagPanorama panorama_;
   std::vector<urban_nav_ros::Panorama> panoramas_;  // since the previous pair or end of a bag
   BagSweeps sweeps_in_bag_;
-  std::vector<SweepInput> sweeps_;  // since the previous item or end of a bag
-  std::optional<StereoFeed> feed_;  // with images
-  bool is_placed_ = false;          // the bags have the extrinsics of the camera
-  std::vector<std::string> names_;  // of the read topics
+  std::optional<PlanarLaser> planar_laser_;  // read as sweeps
+  std::vector<SweepInput> sweeps_;           // since the previous item or end of a bag
+  std::optional<StereoFeed> feed_;           // with images
+  bool is_placed_ = false;                   // the bags have the extrinsics of the camera
+  std::vector<std::string> names_;           // of the read topics
   std::vector<BagGroup> groups_;
   std::size_t group_ = 0;  // current group
   std::shared_ptr<const BagEnd> bag_end_;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_core/types/frames.hpp"
 
 namespace urban_nav_input {
 
@@ -43,10 +44,28 @@ geometry_msgs::TransformStamped parse(const std::string& text) {
       urban_nav_core::Pose(rotation.normalized(), urban_nav_core::Vector3d(values[0], values[1], values[2])));
 }
 
+bool isOfPreset(const std::string& text) { return !text.empty() && text.front() == '?'; }
+
 }  // namespace
 
-void giveTransforms(const std::vector<std::string>& given, urban_nav_ros::StaticTransforms& transforms) {
-  for (const std::string& text : given) transforms.give(parse(text));
+std::vector<std::string> giveTransforms(const std::vector<std::string>& given,
+                                        urban_nav_ros::StaticTransforms& transforms) {
+  std::vector<std::string> sentences;
+  for (const std::string& text : given) {
+    if (isOfPreset(text)) continue;
+    transforms.give(parse(text));
+    sentences.push_back("--transform " + text);
+  }
+  for (const std::string& text : given) {
+    if (!isOfPreset(text)) continue;
+    const geometry_msgs::TransformStamped transform = parse(text.substr(1));
+    const bool has_base = transform.header.frame_id == urban_nav_core::frames::kBaseLink &&
+                          transforms.has(urban_nav_core::frames::kBaseLink);
+    if (has_base || transforms.hasParent(transform.child_frame_id)) continue;
+    transforms.add(transform);
+    sentences.push_back("transform of the preset, which the recording lacks: " + text.substr(1));
+  }
+  return sentences;
 }
 
 }  // namespace urban_nav_input

@@ -52,8 +52,8 @@ std::unique_ptr<Source> openSource(const std::vector<std::string>& paths, const 
                                    const BagEnd* after, const ReceiptRange& part) {
   const InputKind kind = inputKind(paths.front());
   if (kind != InputKind::Bag && !options.topics.empty())
-    throw UserError("--topic " + options.topics.front(), "names a topic, but " + paths.front() + " is a folder",
-                    "for bags only");
+    throw UserError("--topic or --preset: " + options.topics.front(),
+                    "names topics, but " + paths.front() + " is a folder", "for bags only");
   switch (kind) {
     case InputKind::KittiFolder: return openKittiFolder(paths.front(), options);
     case InputKind::NewCollegeFolder: return openNewCollegeFolder(paths.front(), options);

@@ -109,6 +109,18 @@ void writeMovingBag(const std::string& path) {
   }
 }
 
+/// A bag with a horizontal laser alone.
+void writeScanBag(const std::string& path) {
+  rosbag::Bag bag(path, rosbag::bagmode::Write);
+  tf2_msgs::TFMessage transforms;
+  transforms.transforms.push_back(urban_nav_ros::toStaticTransform("base_link", "laser", urban_nav_core::Pose()));
+  bag.write("/tf_static", ros::Time(1.5e9), transforms);
+  for (int i = 0; i < 12; ++i) {
+    const ros::Time stamp(1.5e9 + 0.05 * i);
+    bag.write("/scan", stamp, scanAt(stamp, "laser"));
+  }
+}
+
 /// Prints stamps, completeness and motion inputs of the pairs.
 std::string readMovingBag(const std::string& path, const InputParameters& parameters) {
   SourceOptions options;
@@ -138,6 +150,10 @@ std::string readMovingBag(const std::string& path, const InputParameters& parame
 TEST(ParameterEffects, EachParameterChangesWhatIsRead) {
   const testing::TemporaryFolder folder;
   writeMovingBag(folder.file("a.bag"));
+  writeScanBag(folder.file("scan.bag"));
+  const auto read_scans = [&](const InputParameters& parameters) {
+    return readMovingBag(folder.file("scan.bag"), parameters);
+  };
   const auto read = [&](const InputParameters& parameters) { return readMovingBag(folder.file("a.bag"), parameters); };
   const std::string faults = urban_nav_core::testing::findParametersWithoutEffect(
       inputTable(),
@@ -168,6 +184,9 @@ TEST(ParameterEffects, EachParameterChangesWhatIsRead) {
         read,
         {{"wheel_noise", 0.5}, {"wheels_scale", -1.0}, {"wheels_delay", 5.0}},
         {{"motion_input", "wheels"}}},
+       {"bag with a horizontal laser",
+        read_scans,
+        {{"scan_delay", 5.0}, {"scan_range_scale", 0.5}, {"scan_angle_scale", 0.5}, {"scan_time_scale", 0.5}}},
        {"bag with an IMU", read, {{"gyro_noise", 0.5}, {"gyroscope_scale", 0.5}}, {{"motion_input", "gyroscope"}}}},
       {{"sessions", "ForeignBags.TheUserStatesWhichRecordingsFormASession"},
        {"gps_delay", "BagFixes.AreMeasuredEarlierByTheDelay"}});

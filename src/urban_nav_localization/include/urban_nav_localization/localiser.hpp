@@ -7,6 +7,7 @@
 
 #include "urban_nav_core/trajectory/odometry_chain.hpp"
 #include "urban_nav_core/types/closure.hpp"
+#include "urban_nav_core/types/interval.hpp"
 #include "urban_nav_core/types/pose_with_covariance.hpp"
 #include "urban_nav_localization/parameters.hpp"
 
@@ -31,6 +32,7 @@ enum class LocalizationReason {
   Contested = 5,        ///< as many matches support another pose
   TooLongAgo = 6,       ///< odometry since the last match is not accurate enough
   NotConfirmed = 7,     ///< the map has keyframes of the estimated place, and they do not match
+  OdometryLost = 8,     ///< odometry is lost, or was, and no match since then confirms the pose
 };
 /// Returns "None", "NoMatch", ...
 const char* toString(LocalizationReason reason);
@@ -55,7 +57,8 @@ struct LocalizationEstimate {
 /// Matches that agree along odometry form a hypothesis. Localized requires two matches of one hypothesis at places at
 /// least half a metre apart, and no other hypothesis with as many: a single false match never moves the robot. A robot
 /// that was carried elsewhere is found again: two consecutive consistent matches against all earlier ones end
-/// Localized, a third one replaces the hypothesis and drops the earlier matches. Poses of the map are exact to
+/// Localized, a third one replaces the hypothesis and drops the earlier matches. A step whose status is Lost is a
+/// prediction: it ends Localized until a later match agrees with the hypothesis. Poses of the map are exact to
 /// Parameters::map_sigma. Memory is bounded: some thousand steps of odometry. Not thread-safe. Deterministic.
 class Localiser {
  public:
@@ -105,9 +108,14 @@ class Localiser {
   /// Returns the supporting matches of the newest match, if all matches of the best hypothesis are older than those.
   int against() const;
   void forgetOldSteps();
+  /// Returns whether odometry was lost during a part of (after, until].
+  bool isLost(urban_nav_core::StampNs after, urban_nav_core::StampNs until) const;
+  /// Returns whether odometry is lost at a stamp, or between it and every match of the best hypothesis.
+  bool isUnconfirmedPrediction(urban_nav_core::StampNs stamp) const;
 
   Parameters parameters_;
   std::vector<urban_nav_core::RelativePose> steps_;  // of odometry_
+  std::vector<urban_nav_core::Interval> lost_;       // steps of odometry_ whose status is Lost, in order of time
   urban_nav_core::OdometryChain odometry_;
   std::vector<MapMatch> matches_;  // the latest, in order of time
   int misses_ = 0;                 // consecutive queries without a match

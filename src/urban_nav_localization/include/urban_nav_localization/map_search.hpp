@@ -28,9 +28,10 @@ struct MapKeyframe {
 /// The first map of a store, as it is when it is read.
 class FrozenMap {
  public:
-  /// Throws DataError that names the store if it holds no session or no keyframes.
+  /// Throws DataError that names the store if it holds no session, or neither keyframes nor beams of lasers.
   explicit FrozenMap(urban_nav_store::Store& store);
 
+  bool hasKeyframes() const { return !views_.empty(); }
   /// Returns the sessions in order of their starts.
   const std::vector<urban_nav_store::StoredTrajectory>& sessions() const { return sessions_; }
   /// Returns the keyframes of all sessions whose camera is known, to be converted to this one where it is another.

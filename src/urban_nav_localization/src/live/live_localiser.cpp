@@ -56,6 +56,7 @@ void LiveLocaliser::setCamera(const std::optional<urban_nav_registration::Mounte
   builder_.setCamera(*camera);
   const std::string fingerprint = urban_nav_registration::calibrationFingerprint(camera->camera, camera->T_base_left);
   if (search_ && fingerprint == camera_) return;
+  if (!map_.hasKeyframes()) return;  // its clouds are searched
   camera_ = fingerprint;
   search_.reset();
   state_.map_fault.clear();
@@ -90,6 +91,19 @@ void LiveLocaliser::addOdometry(const StampedPose& T_odom_base) {
 void LiveLocaliser::addScan(const std::string& frame, const urban_nav_core::Scan& scan) {
   scans_.add(frame, scan);
   ++state_.scans;
+}
+
+void LiveLocaliser::addSweep(const std::string& frame, const urban_nav_core::Sweep& sweep) {
+  const std::optional<urban_nav_core::Pose> now =
+      odometry_.empty() ? std::nullopt : std::optional(odometry_.back().pose);
+  sweeps_.add(frame, sweep, now);
+  ++state_.sweeps;
+}
+
+std::vector<std::string> LiveLocaliser::unplacedLasers() const {
+  std::vector<std::string> frames = scans_.unplaced();
+  for (const std::string& frame : sweeps_.unplaced()) frames.push_back(frame);
+  return frames;
 }
 
 void LiveLocaliser::takeKeyframes() {
@@ -171,7 +185,7 @@ bool LiveLocaliser::work() {
       return true;
     }
     if (queryKeyframe()) return true;
-    if (clouds_ && state_.scans > 0 && clouds_->read() < clouds_->places()) {
+    if (clouds_ && state_.scans + state_.sweeps > 0 && clouds_->read() < clouds_->places()) {
       clouds_->readNext();
       return true;
     }
@@ -197,15 +211,19 @@ bool LiveLocaliser::queryKeyframe() {
 }
 
 bool LiveLocaliser::queryCloud() {
-  if (!clouds_ || state_.scans == 0) return false;
-  const auto stretch = clouds_->due(localiser_);
+  if (!clouds_ || state_.scans + state_.sweeps == 0) return false;
+  const auto stretch =
+      clouds_->due(localiser_, sweeps_.any() ? BeamSources::Lidars : BeamSources::PlanarLasers);
   if (!stretch) return false;
   const Clock::time_point begin = Clock::now();
   const urban_nav_core::OdometryChain& odometry = localiser_.odometry();
-  const auto cloud = urban_nav_registration::localCloud(odometry, stretch->at, stretch->way, scans_.lasers());
+  std::vector<urban_nav_registration::LaserScans> lasers = scans_.lasers();
+  for (urban_nav_registration::LaserScans& lidar : sweeps_.lidars()) lasers.push_back(std::move(lidar));
+  const auto cloud = urban_nav_registration::localCloud(odometry, stretch->at, stretch->way, lasers);
   const double sigma = urban_nav_registration::deformationSigma(odometry, stretch->at, stretch->way);
   ++state_.cloud_queries;
   if (clouds_->query(*stretch, cloud, sigma, localiser_)) ++state_.cloud_matches;
+  else if (!search_) clouds_->addMiss(*stretch, localiser_);
   state_.cloud_query_ms = millisecondsSince(begin);
   publishIfChanged();
   return true;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "live/recent_scans.hpp"
+#include "live/recent_sweeps.hpp"
 #include "urban_nav_core/sequence/stereo_assembler.hpp"
 #include "urban_nav_live/time_jump.hpp"
 #include "urban_nav_localization/cloud_search.hpp"
@@ -20,7 +21,7 @@
 namespace urban_nav_localization {
 
 /// Localises a live robot in a frozen map. Keyframes are selected as in any drive, and each is searched for in the map
-/// once smoothed odometry has reached it; so are the scans of the last metres. Used by one thread.
+/// once smoothed odometry has reached it; so are the scans and sweeps of the last metres. Used by one thread.
 class LiveLocaliser {
  public:
   /// Pose in the map from the user (`initialpose`). Stamp 0, or a stamp that odometry has not reached: now.
@@ -41,7 +42,7 @@ class LiveLocaliser {
     std::int64_t queries = 0, matches = 0, initial_poses = 0;
     std::size_t map_places = 0, map_places_read = 0;  ///< whose clouds are searched
     std::int64_t cloud_queries = 0, cloud_matches = 0;
-    std::int64_t scans = 0;
+    std::int64_t scans = 0, sweeps = 0;
     std::int64_t dropped_keyframes = 0;  ///< for which there was no time
     std::int64_t refused_steps = 0, restarts = 0;
     double query_ms = 0.0, cloud_query_ms = 0.0;  ///< of the last query
@@ -61,10 +62,12 @@ class LiveLocaliser {
   void addTurn(const urban_nav_core::StampedTurn& turn) { builder_.addTurn(turn); }
   void addOdometry(const urban_nav_core::StampedPose& T_odom_base);
   void addScan(const std::string& frame, const urban_nav_core::Scan& scan);
+  void addSweep(const std::string& frame, const urban_nav_core::Sweep& sweep);
   void setLaser(const std::string& frame, const urban_nav_core::Pose& T_base_laser) {
     scans_.setLaser(frame, T_base_laser);
+    sweeps_.setLidar(frame, T_base_laser);
   }
-  std::vector<std::string> unplacedLasers() const { return scans_.unplaced(); }
+  std::vector<std::string> unplacedLasers() const;
   /// Appends a step of smoothed odometry. A gap, or a jump back in time, restarts the localization.
   void addStep(const urban_nav_core::RelativePose& step);
   void addInitialPose(const InitialPose& initial_pose);
@@ -95,6 +98,7 @@ class LiveLocaliser {
   std::string camera_;  // fingerprint of the camera of search_
   std::unique_ptr<MapSearch> search_;
   RecentScans scans_;
+  RecentSweeps sweeps_;
   std::unique_ptr<CloudSearch> clouds_;
   Localiser localiser_;
   bool needs_clouds_;  // clouds_ is made by the first work(), since it reads the odometry of the map

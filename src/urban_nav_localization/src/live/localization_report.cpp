@@ -12,8 +12,8 @@ std::pair<StageFault, std::string> findFault(const StageState& state) {
   if (state.paused) return {StageFault::None, ""};
   if (!localiser.map_fault.empty()) return {StageFault::NoMap, localiser.map_fault};
   if (!state.odometry_fault.empty()) return {StageFault::NoOdometry, state.odometry_fault};
-  if (!state.camera_fault.empty()) return {StageFault::NoCamera, state.camera_fault};
-  if (!state.image_fault.empty()) return {StageFault::NoImages, state.image_fault};
+  if (state.compares_images && !state.camera_fault.empty()) return {StageFault::NoCamera, state.camera_fault};
+  if (state.compares_images && !state.image_fault.empty()) return {StageFault::NoImages, state.image_fault};
   if (localiser.map_keyframes_read < localiser.map_keyframes)
     return {StageFault::ReadingMap, "reading the map: " + std::to_string(localiser.map_keyframes_read) + " of " +
                                         std::to_string(localiser.map_keyframes) + " keyframes"};
@@ -64,7 +64,8 @@ urban_nav_live::StageReport makeReport(const StageState& state) {
   report.add("cloud matches", localiser.cloud_matches);
   report.add("time of the last cloud query (ms)", localiser.cloud_query_ms);
   report.add("scans", localiser.scans);
-  report.add("lasers", !state.laser_pose_fault.empty() ? state.laser_pose_fault : localiser.scans > 0 ? "ok" : "none");
+  report.add("sweeps", localiser.sweeps);
+  report.add("lasers", !state.laser_pose_fault.empty() ? state.laser_pose_fault : localiser.scans + localiser.sweeps > 0 ? "ok" : "none");
   report.add("stereo pairs", localiser.keyframes.pairs);
   report.add("stereo pairs without odometry", localiser.keyframes.without_odometry);
   report.add("images damaged", state.damaged_images);

@@ -24,7 +24,8 @@ const char* toString(StageFault fault);
 
 /// State of the stage, of which its report is made.
 struct StageState {
-  bool paused = false;  ///< no fault is reported
+  bool paused = false;          ///< no fault is reported
+  bool compares_images = true;  ///< false: images are not subscribed, or the map has no keyframes
   LiveLocaliser::State localiser;
   std::string map;                          ///< path of the store
   std::string odometry_fault, image_fault;  ///< of topics; empty: none

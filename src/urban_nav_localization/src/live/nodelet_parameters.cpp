@@ -19,6 +19,8 @@ const Table<NodeletParameters>& nodeletTable() {
       urban_nav_live::withStereoInput<P>({
           {"store", &P::store, "", "", false, false, {},
            "Absolute path of the session store that holds the map; it is opened for reading only.", "docs/files.md"},
+          {"stereo", &P::stereo, "", true, false, true, {},
+           "Compare keyframes of the stereo camera with those of the map; false for robots without cameras.", "paper 4.1"},
           {"map_frame", &P::map_frame, "", frames::kMap, false, false, {},
            "Frame of the map; its origin is the first pose of its first session.", "REP-105"},
           {"odom_frame", &P::odom_frame, "", frames::kOdom, false, false, {},

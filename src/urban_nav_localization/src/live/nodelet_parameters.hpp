@@ -11,6 +11,7 @@ namespace urban_nav_localization {
 /// Parameters of the nodelet that localises alone: map, frames, transport. One member per row of nodeletTable().
 struct NodeletParameters : urban_nav_live::StereoInputParameters {
   std::string store;
+  bool stereo;
   std::string map_frame;
   std::string odom_frame;
   bool publish_tf;

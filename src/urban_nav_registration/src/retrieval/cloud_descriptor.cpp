@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace urban_nav_registration {
 
@@ -12,7 +11,6 @@ namespace {
 constexpr float kLowest = 0.1F, kHighest = 10.0F;  // m above the ground, of a bin with returns
 constexpr double kGroundShare = 0.05;              // share of the returns below the ground
 constexpr std::size_t kSeenBins = 5;               // of a direction with returns
-constexpr std::size_t kCompared = 30;              // places of the most similar profile
 
 /// Returns the height of the ground: a low quantile of the returns.
 float groundHeight(const urban_nav_core::PointCloud& cloud) {
@@ -80,30 +78,6 @@ double CloudDescriptor::profileDifference(const CloudDescriptor& other) const {
   double sum = 0.0;
   for (std::size_t k = 0; k < kDistances; ++k) sum += static_cast<double>(std::abs(profile_[k] - other.profile_[k]));
   return sum / static_cast<double>(kDistances);
-}
-
-std::vector<SimilarPlaces> findSimilarPlaces(const std::vector<DescribedPlace>& places, double least, double apart) {
-  std::vector<SimilarPlaces> found;
-  for (std::size_t later = 0; later < places.size(); ++later) {
-    if (places[later].is_known) continue;
-    std::vector<std::pair<double, std::size_t>> compared;  // by the difference of their profiles
-    for (std::size_t earlier = 0; earlier < later; ++earlier) {
-      const bool is_near = places[earlier].session == places[later].session &&
-                           std::abs(places[later].distance - places[earlier].distance) < apart;
-      if (!is_near)
-        compared.push_back({places[later].descriptor.profileDifference(places[earlier].descriptor), earlier});
-    }
-    const std::size_t count = std::min(kCompared, compared.size());
-    std::partial_sort(compared.begin(), compared.begin() + static_cast<std::ptrdiff_t>(count), compared.end());
-    SimilarPlaces best{0, later, 0.0};
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t earlier = compared[i].second;
-      const double similarity = places[later].descriptor.similarity(places[earlier].descriptor);
-      if (similarity > best.similarity) best = {earlier, later, similarity};
-    }
-    if (best.similarity >= least) found.push_back(best);
-  }
-  return found;
 }
 
 }  // namespace urban_nav_registration

@@ -2,6 +2,7 @@
 #include "urban_nav_registration/session/stored_beams.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/table_store.hpp"
@@ -33,21 +34,12 @@ bool isLidar(Store& store, const SessionId& session, const std::string& role) {
   return std::any_of(lidars.begin(), lidars.end(), [&](const MountedLidar& lidar) { return lidar.role == role; });
 }
 
-/// Returns the reference times of the sweeps of an interval.
-std::vector<StampNs> sweepTimes(Store& store, const SessionId& session, const std::string& role, StampNs from,
-                                StampNs to) {
-  std::vector<StampNs> times;
-  TableStore<LidarSweep>(store).forEachBetween({session, role, 0, {}}, from, to,
-                                               [&](const LidarSweep& row) { times.push_back(row.reference); });
-  return times;
-}
-
 }  // namespace
 
 std::vector<LaserAt> storedBeamSources(Store& store, const SessionId& session) {
   std::vector<LaserAt> sources = storedLasers(store, session);
   for (const MountedLidar& lidar : mountedLidars(store, session))
-    sources.push_back({lidar.role, lidar.T_base_lidar, 0});
+    sources.push_back({lidar.role, lidar.T_base_lidar, 0, true});
   return sources;
 }
 
@@ -63,15 +55,15 @@ std::vector<std::string> BeamReader::lasers(const SessionId& session) const {
 
 std::int64_t BeamReader::count(const SessionId& session, const std::string& laser) const {
   if (!isLidar(store_, session, laser)) return store_.scans().count(session, laser);
-  std::int64_t sweeps = 0;
-  TableStore<LidarSweep>(store_).forEach(session, [&](const LidarSweep& row) { sweeps += row.role == laser ? 1 : 0; });
-  return sweeps;
+  constexpr auto kEver = std::numeric_limits<StampNs>::max();
+  return static_cast<std::int64_t>(
+      TableStore<LidarSweep>(store_).keysBetween({session, laser, 0, {}}, -kEver, kEver).size());
 }
 
 void BeamReader::forEach(const SessionId& session, const std::string& laser, StampNs from, StampNs to,
                          const std::function<void(const Scan&)>& take) const {
   if (!isLidar(store_, session, laser)) return store_.scans().forEach(session, laser, from, to, take);
-  const std::vector<StampNs> times = sweepTimes(store_, session, laser, from, to);
+  const std::vector<StampNs> times = TableStore<LidarSweep>(store_).keysBetween({session, laser, 0, {}}, from, to);
   const std::size_t count = std::min(kMostSweeps, times.size());
   for (std::size_t i = 0; i < count; ++i) {
     const StampNs time = times[count == 1 ? 0 : i * (times.size() - 1) / (count - 1)];

@@ -63,22 +63,5 @@ TEST(CloudDescriptor, TooLittleIsNotDescribed) {
   EXPECT_FALSE(CloudDescriptor::describe(cloud));
 }
 
-TEST(CloudDescriptor, SimilarPlacesAreEarlierOnesFarAlongThePath) {
-  std::vector<DescribedPlace> places;
-  for (std::size_t i = 0; i < 8; ++i)
-    places.push_back({describeFrom(100 + i), 0, 10.0 * static_cast<double>(i), false});
-  places.push_back({describeFrom(102, 0.5, 0.5, 2.0), 0, 80.0, false});
-  places.push_back({describeFrom(108), 0, 90.0, false});
-  places.push_back({describeFrom(108, 0.5, 0.0, 0.0), 0, 95.0, false});
-  places.push_back({describeFrom(103, 0.0, 0.5, 3.0), 1, 0.0, false});
-  places.push_back({describeFrom(104, 0.0, 0.5, 3.0), 1, 10.0, true});
-  const std::vector<SimilarPlaces> found = findSimilarPlaces(places, 0.7, 20.0);
-  ASSERT_EQ(found.size(), 2U);
-  EXPECT_EQ(found[0].earlier, 2U);
-  EXPECT_EQ(found[0].later, 8U);
-  EXPECT_EQ(found[1].earlier, 3U);
-  EXPECT_EQ(found[1].later, 11U);
-}
-
 }  // namespace
 }  // namespace urban_nav_registration

@@ -23,6 +23,12 @@ class StaticTransforms {
   void add(const tf2_msgs::TFMessage& message);
   void add(const geometry_msgs::TransformStamped& transform);
 
+  /// Notes a transform that changes over time; lookup() does not use it.
+  void addMoving(const std::string& parent, const std::string& child);
+  /// Returns the first frame from `from` up to its ancestor `to` whose transform changes over time; empty if there is
+  /// none, or if `to` is no ancestor.
+  std::string findMoving(const std::string& to, const std::string& from) const;
+
   /// Sets a transform by the user, which takes precedence over all others to its child.
   void give(const geometry_msgs::TransformStamped& transform);
 
@@ -49,7 +55,8 @@ class StaticTransforms {
   };
   std::optional<Climb> climb(const std::string& frame) const;
 
-  std::map<std::string, Link> parents_;  // by child
+  std::map<std::string, Link> parents_;        // by child
+  std::map<std::string, std::string> moving_;  // parents by child
   std::vector<std::string> faults_;
 };
 

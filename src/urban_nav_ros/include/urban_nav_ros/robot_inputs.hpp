@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
 
 #include <functional>
 #include <optional>
@@ -14,14 +15,15 @@
 #include "urban_nav_live/beam_faults.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
 #include "urban_nav_ros/stereo_sessions.hpp"
+#include "urban_nav_ros/sweep_feeds.hpp"
 
 namespace urban_nav_ros {
 
 /// Passes the messages of subscribeRobot() to a core that builds keyframes and local clouds: stereo pairs with the
-/// mounted camera, scans with the mounting of their lasers, both poses of odometry. Used by one thread.
+/// mounted camera, scans and sweeps with the mounting of their lasers, both poses of odometry. Used by one thread.
 ///
-/// Requires of Sink: setCamera(optional<MountedCamera>), addPair, addTurn, restartImages, addScan, unplacedLasers,
-/// setLaser, addOdometry and addStep. It must outlive this object.
+/// Requires of Sink: setCamera(optional<MountedCamera>), addPair, addTurn, restartImages, addScan, addSweep,
+/// unplacedLasers, setLaser, addOdometry and addStep. It must outlive this object.
 template <typename Sink, typename MountedCamera>
 class RobotInputs {
  public:
@@ -34,7 +36,9 @@ class RobotInputs {
       : base_frame_(options.base_frame),
         sink_(sink),
         listener_(std::move(listener)),
-        sessions_(options, stereoListener()) {}
+        sessions_(options, stereoListener()),
+        sweeps_({[this](const std::string& frame, const urban_nav_core::Sweep& sweep) { sink_.addSweep(frame, sweep); },
+                 [this] { listener_.invalid_scan(); }}) {}
 
   void handle(const ImageInput& image) { sessions_.handle(image); }
   void handle(const InfoInput& info) { sessions_.handle(info); }
@@ -49,6 +53,10 @@ class RobotInputs {
     sink_.addScan(message->header.frame_id, urban_nav_core::toScan(*planar));
     placeLasers();
   }
+  void handle(const sensor_msgs::PointCloud2ConstPtr& cloud) {
+    sweeps_.add(cloud);
+    placeLasers();
+  }
   void handle(const urban_nav_core::StampedTurn& turn) { sink_.addTurn(turn); }
   void handle(const urban_nav_core::StampedPose& odometry) { sink_.addOdometry(odometry); }
   void handle(const urban_nav_core::SessionStep& step) { sink_.addStep(step); }
@@ -59,9 +67,9 @@ class RobotInputs {
   const urban_nav_live::BeamFaults& beams() const { return beams_; }
   /// Returns a message if the camera's mounting is unknown; else an empty text.
   const std::string& mountingFault() const { return mounting_fault_; }
-  /// Returns a message naming a laser whose mounting is unknown; else an empty text.
+  /// Returns a message naming a laser whose mounting is unknown or whose clouds are unusable; else an empty text.
   std::string laserFault() const {
-    std::string fault;
+    std::string fault = sweeps_.fault();
     for (const std::string& frame : sink_.unplacedLasers()) fault = "no static tf from " + base_frame_ + " to " + frame;
     return fault;
   }
@@ -94,6 +102,7 @@ class RobotInputs {
   StereoSessions sessions_;
   std::string mounting_fault_;
   urban_nav_live::BeamFaults beams_;
+  SweepFeeds sweeps_;
 };
 
 }  // namespace urban_nav_ros

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/PointCloud2.h>
 
 #include <type_traits>
 
@@ -36,9 +37,9 @@ void subscribeTurns(StageNodeWith<Input>& node, int queue) {
 }
 
 /// Subscribes to both poses of odometry, to /tf_static, to the stereo camera and turns of its right camera if `stereo`,
-/// and to both lasers if `lasers`. Requires that Input is constructible from ImageInput, InfoInput,
+/// and to both lasers and the 3D LiDAR if `lasers`. Requires that Input is constructible from ImageInput, InfoInput,
 /// tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr, urban_nav_core::StampedPose (filtered) and
-/// urban_nav_core::SessionStep (smoothed).
+/// urban_nav_core::SessionStep (smoothed); without sensor_msgs::PointCloud2ConstPtr, the LiDAR is left out.
 /// Odometry is also received during a pause, so that it has no gap.
 template <typename Input>
 void subscribeRobot(StageNodeWith<Input>& node, int queue, bool stereo, bool compressed, bool lasers) {
@@ -61,10 +62,17 @@ void subscribeRobot(StageNodeWith<Input>& node, int queue, bool stereo, bool com
     if (lasers)
       node.template subscribeInput<sensor_msgs::LaserScan>(
           topic, options, [](const sensor_msgs::LaserScanConstPtr& message) { return Input(message); });
+  if constexpr (std::is_constructible_v<Input, sensor_msgs::PointCloud2ConstPtr>) {
+    TopicOptions unmonitored = options;
+    unmonitored.is_monitored = false;  // the robot may have none
+    if (lasers)
+      node.template subscribeInput<sensor_msgs::PointCloud2>(
+          topics::kPoints, unmonitored, [](const sensor_msgs::PointCloud2ConstPtr& message) { return Input(message); });
+  }
   options.group = topic_groups::kOdometry;
   options.is_paused = false;
   node.template subscribeInput<nav_msgs::Odometry>(
-      topics::kVoOdometry, options,
+      topics::kOdometry, options,
       [](const nav_msgs::OdometryConstPtr& message) -> std::optional<urban_nav_core::StampedPose> {
         const auto T_odom_base = toPose(message->pose.pose);
         if (!T_odom_base) return std::nullopt;
@@ -72,7 +80,7 @@ void subscribeRobot(StageNodeWith<Input>& node, int queue, bool stereo, bool com
       });
   options.is_awaited = true;
   node.template subscribeInput<urban_nav_msgs::RelativePose>(
-      topics::kVoRelativePose, options,
+      topics::kRelativePose, options,
       [](const urban_nav_msgs::RelativePoseConstPtr& message) { return toSessionStep(*message); });
 }
 

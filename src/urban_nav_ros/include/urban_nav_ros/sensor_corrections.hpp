@@ -20,15 +20,15 @@ namespace urban_nav_ros {
 /// readers of recordings, `input/imu_delay` etc. of nodelets. Base of their parameter structs; the rows are those of
 /// withSensorCorrections().
 struct SensorCorrectionParameters {
-  std::string accelerometer_axes;                          // in the format of parseAxisMap()
-  double accelerometer_scale;                              // m/s2
-  double gyroscope_scale;                                  // rad/s
-  double wheels_scale;                                     // m
-  double imu_delay, wheels_delay, gps_delay;               // ms
-  double laser_left_delay, laser_right_delay;              // ms
-  double laser_left_range_scale, laser_right_range_scale;  // m
-  double laser_left_angle_scale, laser_right_angle_scale;  // rad
-  double laser_left_time_scale, laser_right_time_scale;    // s
+  std::string accelerometer_axes;                                            // in the format of parseAxisMap()
+  double accelerometer_scale;                                                // m/s2
+  double gyroscope_scale;                                                    // rad/s
+  double wheels_scale;                                                       // m
+  double imu_delay, wheels_delay, gps_delay;                                 // ms
+  double laser_left_delay, laser_right_delay, scan_delay;                    // ms
+  double laser_left_range_scale, laser_right_range_scale, scan_range_scale;  // m
+  double laser_left_angle_scale, laser_right_angle_scale, scan_angle_scale;  // rad
+  double laser_left_time_scale, laser_right_time_scale, scan_time_scale;     // s
 };
 
 /// Corrections given by SensorCorrectionParameters.
@@ -36,7 +36,7 @@ struct SensorCorrections {
   urban_nav_core::AccelerometerConvention accelerometer = {};
   double gyroscope_scale = 1.0, wheels_scale = 1.0;
   urban_nav_core::StampNs imu_delay = 0, wheels_delay = 0, gps_delay = 0;  // ns
-  std::array<urban_nav_core::LaserConvention, 2> lasers = {};              // left, right
+  std::array<urban_nav_core::LaserConvention, 3> lasers = {};              // left, right, scan
 };
 
 /// Returns the corrections. Throws UserError for unknown axes and for a wheels_scale of zero.
@@ -56,7 +56,7 @@ struct CorrectionSetting {
 /// does.
 std::vector<CorrectionSetting> settingsFor(const urban_nav_core::AccelerometerVerdict& verdict,
                                            const urban_nav_core::AccelerometerConvention& present);
-/// Returns the settings that correct the scans of a laser. `role`: "laser_left" or "laser_right".
+/// Returns the settings that correct the scans of a laser. `role`: "laser_left", "laser_right" or "scan".
 std::vector<CorrectionSetting> settingsFor(const urban_nav_core::ScanVerdict& verdict, const std::string& role,
                                            const urban_nav_core::LaserConvention& present);
 
@@ -149,6 +149,9 @@ std::vector<urban_nav_core::Row<P>> sensorCorrectionRows() {
     rows.push_back(std::move(row));
   for (auto& row : detail::laserRows<P>("laser_right", &P::laser_right_delay, &P::laser_right_range_scale,
                                         &P::laser_right_angle_scale, &P::laser_right_time_scale))
+    rows.push_back(std::move(row));
+  for (auto& row :
+       detail::laserRows<P>("scan", &P::scan_delay, &P::scan_range_scale, &P::scan_angle_scale, &P::scan_time_scale))
     rows.push_back(std::move(row));
   return rows;
 }

@@ -20,7 +20,7 @@ constexpr const char* kLeftInfo = "stereo/left/camera_info";
 constexpr const char* kRightInfo = "stereo/right/camera_info";
 constexpr const char* kLaserLeft = "laser_left/scan";
 constexpr const char* kLaserRight = "laser_right/scan";
-constexpr const char* kScan = "scan";      // in the namespace of a laser
+constexpr const char* kScan = "scan";      // of the horizontal planar laser, and in the namespace of a laser
 constexpr const char* kPoints = "points";  // of the 3D LiDAR
 constexpr const char* kWheelOdometry = "wheel_odom";
 constexpr const char* kVelocityCommand = "cmd_vel";
@@ -40,6 +40,10 @@ constexpr std::array<const char*, 5> kPanoramaInfos = {"ladybug/camera0/camera_i
 // Ground truth of recordings and of the simulator.
 constexpr const char* kTruthPose = "ground_truth/pose";
 constexpr const char* kTruthTransforms = "ground_truth/tf";
+
+// Odometry of the robot as later stages receive it: launch files connect it to swf_vo or laser_odometry.
+constexpr const char* kOdometry = "odometry";
+constexpr const char* kRelativePose = "odometry/relative_pose";
 
 // swf_vo.
 constexpr const char* kVoOdometry = "vo/odometry";

@@ -10,12 +10,13 @@ namespace urban_nav_sim {
 
 LidarModel parseLidarModel(const std::string& word, const std::string& where) {
   if (word == "livox") return {LidarModel::Pattern::Rosette, LidarModel::kRosetteLines};
+  if (word == "planar") return {LidarModel::Pattern::Rings, 1};
   const auto number = urban_nav_core::parseNumber(word);
   if (!number || *number != std::floor(*number) || *number < LidarModel::kFewestRings ||
       *number > LidarModel::kMostRings)
-    throw urban_nav_core::UserError(
-        where, "\"" + word + "\"",
-        std::to_string(LidarModel::kFewestRings) + "..." + std::to_string(LidarModel::kMostRings) + " rings, or livox");
+    throw urban_nav_core::UserError(where, "\"" + word + "\"",
+                                    std::to_string(LidarModel::kFewestRings) + "..." +
+                                        std::to_string(LidarModel::kMostRings) + " rings, or livox, or planar");
   return {LidarModel::Pattern::Rings, static_cast<int>(*number)};
 }
 

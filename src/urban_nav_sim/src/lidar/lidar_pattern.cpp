@@ -36,7 +36,7 @@ LidarPattern::LidarPattern(const LidarModel& model)
     : pattern_(model.pattern),
       rings_(model.rings),
       columns_(model.pattern == LidarModel::Pattern::Rings ? kColumnsOfTurn : kColumnsOfRosette) {
-  assert(rings_ > 1);
+  assert(rings_ > 0);
 }
 
 double LidarPattern::time(int column, int ring) const {
@@ -45,6 +45,7 @@ double LidarPattern::time(int column, int ring) const {
 
 double LidarPattern::elevation(int ring) const {
   if (pattern_ == LidarModel::Pattern::Rosette) return kLineSpacing * (ring - 0.5 * (rings_ - 1));
+  if (rings_ == 1) return 0.0;
   const double low = rings_ < 32 ? -15.0 * kRadiansPerDegree : -25.0 * kRadiansPerDegree,
                high = 15.0 * kRadiansPerDegree;
   return low + (high - low) * ring / (rings_ - 1);

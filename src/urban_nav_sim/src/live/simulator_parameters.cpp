@@ -31,7 +31,8 @@ const Table<SimulatorParameters>& simulatorTable() {
           {"sensors", &P::sensors, "", "stereo, ladybug, lasers, imu, wheels, gps", false, false, {},
            "Sensors of the robot, separated by commas; others take no time.", "docs/architecture.md"},
           {"lidar", &P::lidar, "", "64", false, false, {},
-           "Kind of the 3D LiDAR, if lidar3d is among the sensors: number of its rings, 16 to 128, or livox.", ""},
+           "Kind of the 3D LiDAR, if lidar3d is among the sensors: number of its rings, 16 to 128, livox, or planar.",
+           ""},
           {"with", &P::with, "", "", false, false, {},
            "Defects of the sensors in addition to the default ones, separated by commas: stereo:lens, all:clock, as "
            "for `urban_nav simulate --with`.",

@@ -67,6 +67,9 @@ TEST(LidarModel, IsReadFromTheOption) {
   EXPECT_EQ(parseLidarModel("16", "--lidar").rings, 16);
   EXPECT_EQ(parseLidarModel("128", "--lidar").rings, 128);
   EXPECT_EQ(parseLidarModel("livox", "--lidar").pattern, LidarModel::Pattern::Rosette);
+  const LidarPattern planar(parseLidarModel("planar", "--lidar"));
+  EXPECT_EQ(planar.rings(), 1);
+  for (const int column : {0, 500, 1999}) EXPECT_EQ(planar.direction(0, column, 0).z(), 0.0);
   for (const char* word : {"", "15", "129", "64.5", "ouster", "nan", "-64"}) {
     try {
       parseLidarModel(word, "--lidar");

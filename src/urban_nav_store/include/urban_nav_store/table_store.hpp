@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -27,6 +28,7 @@ class AnyTableStore {
   void forEachRow(const SessionId& session, const AnyRow& row, const std::function<void()>& visit) const;
   void forEachRowBetween(const AnyRow& row, std::int64_t from, std::int64_t to,
                          const std::function<void()>& visit) const;
+  std::vector<std::int64_t> lastKeysBetween(const AnyRow& row, std::int64_t from, std::int64_t to) const;
 
  private:
   TableAccess* access_;
@@ -63,6 +65,11 @@ class TableStore : private AnyTableStore {
   /// those of `key`.
   void forEachBetween(Row key, std::int64_t from, std::int64_t to, const std::function<void(const Row&)>& visit) const {
     forEachRowBetween(AnyRow(key), from, to, [&] { visit(key); });
+  }
+
+  /// Returns the last keys of these rows, ascending, without reading the rows.
+  std::vector<std::int64_t> keysBetween(const Row& key, std::int64_t from, std::int64_t to) const {
+    return lastKeysBetween(unchanged(key), from, to);
   }
 };
 

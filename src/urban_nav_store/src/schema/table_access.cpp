@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "schema/table_access.hpp"
 
-#include <limits>
-
 #include "schema/row.hpp"
 #include "schema/row_columns.hpp"
 #include "schema/schema.hpp"
@@ -132,14 +130,19 @@ std::vector<std::string> TableAccess::secondKeys(const Table& table, const Sessi
   return values;
 }
 
-std::vector<std::int64_t> TableAccess::lastKeys(const Table& table, const AnyRow& row) {
+std::vector<std::int64_t> TableAccess::lastKeys(const Table& table, const AnyRow& row, std::int64_t from,
+                                                std::int64_t to) {
   std::vector<std::int64_t> values;
   if (!has(table)) return values;
   const std::string name = lastKeyName(table);
   Statement statement =
-      connection_.prepare("SELECT " + name + " FROM " + table.name + " " + whereOthers(table) + " ORDER BY " + name);
+      connection_.prepare("SELECT " + name + " FROM " + table.name + " " + whereOthers(table) + " AND " + name +
+                          ">=? AND " + name + "<=? ORDER BY " + name);
   KeyColumns key(statement, table.keys - 1);
   row.columns(key);
+  const auto others = static_cast<int>(table.keys) - 1;
+  statement.bind(others, from);
+  statement.bind(others + 1, to);
   while (statement.step()) values.push_back(statement.integer(0));
   return values;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -46,8 +48,11 @@ class TableAccess {
 
   /// Returns the distinct values of the second key column, a text, in a session; sorted.
   std::vector<std::string> secondKeys(const Table& table, const SessionId& session);
-  /// Returns the values of the last key column, an integer, of the rows with the other key columns of `row`; ascending.
-  std::vector<std::int64_t> lastKeys(const Table& table, const AnyRow& row);
+  /// Returns the values of the last key column, an integer, of the rows with the other key columns of `row`; ascending,
+  /// from...to. Reads no other column.
+  std::vector<std::int64_t> lastKeys(const Table& table, const AnyRow& row,
+                                     std::int64_t from = std::numeric_limits<std::int64_t>::min(),
+                                     std::int64_t to = std::numeric_limits<std::int64_t>::max());
   /// Returns the number of rows that a session has according to the tally.
   std::int64_t count(const Table& table, const SessionId& session);
   /// Returns the number of sessions that have rows of the table according to the tally.

@@ -23,4 +23,8 @@ void AnyTableStore::forEachRowBetween(const AnyRow& row, std::int64_t from, std:
   access_->forEachBetween(*table_, row, from, to, visit);
 }
 
+std::vector<std::int64_t> AnyTableStore::lastKeysBetween(const AnyRow& row, std::int64_t from, std::int64_t to) const {
+  return access_->lastKeys(*table_, row, from, to);
+}
+
 }  // namespace urban_nav_store

@@ -46,10 +46,10 @@ class TrustGraph : public urban_nav_ros::testing::Listener {
       step.from = (k_ - 1) * kFrame;
       step.to = k_ * kFrame;
       step.drift_covariance = 1e-8 * urban_nav_core::Matrix6d::Identity();
-      EXPECT_TRUE(receipts_.await({{"vo/relative_pose", 1}},
+      EXPECT_TRUE(receipts_.await({{"odometry/relative_pose", 1}},
                                   [&] { relative_.publish(urban_nav_ros::toRelativePoseMessage(step, "base_link")); }));
       EXPECT_TRUE(receipts_.await({{"vo/statistics", 1}}, [&] { statistics_.publish(statistics); }));
-      EXPECT_TRUE(receipts_.await({{"vo/odometry", 1}}, [&] { odometry_.publish(odometry); }));
+      EXPECT_TRUE(receipts_.await({{"odometry", 1}}, [&] { odometry_.publish(odometry); }));
     }
   }
 
@@ -59,8 +59,8 @@ class TrustGraph : public urban_nav_ros::testing::Listener {
  private:
   const urban_nav_ros::testing::Receipts receipts_;
   ros::Publisher statistics_ = advertise<urban_nav_msgs::VoStatistics>("vo/statistics");
-  ros::Publisher relative_ = advertise<urban_nav_msgs::RelativePose>("vo/relative_pose");
-  ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("vo/odometry");
+  ros::Publisher relative_ = advertise<urban_nav_msgs::RelativePose>("odometry/relative_pose");
+  ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("odometry");
   urban_nav_core::StampNs k_ = 100;
 };
 

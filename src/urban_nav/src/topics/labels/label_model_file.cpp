@@ -5,11 +5,21 @@
 
 namespace urban_nav {
 
-NamedLabelModel readLabelModel(const std::string& path) {
+namespace {
+
+NamedLabelModel readNamedModel(const std::string& path) {
   if (path == "default")
     return {scene_labeler::defaultModel(), scene_labeler::modelDigest(scene_labeler::defaultModelBytes())};
   const std::string bytes = urban_nav_core::readBytes(path);
   return {scene_labeler::parseModel(bytes, path), scene_labeler::modelDigest(bytes)};
+}
+
+}  // namespace
+
+NamedLabelModel readLabelModel(const std::string& path, double precision) {
+  NamedLabelModel named = readNamedModel(path);
+  named.model.precision = precision;
+  return named;
 }
 
 }  // namespace urban_nav

@@ -13,7 +13,8 @@ struct NamedLabelModel {
   std::string digest;
 };
 
-/// Reads a model; `default` is that of the suite. Throws UserError for a damaged file.
-NamedLabelModel readLabelModel(const std::string& path);
+/// Reads a model; `default` is that of the suite. `precision`: LabelModel::precision. Throws UserError for a damaged
+/// file.
+NamedLabelModel readLabelModel(const std::string& path, double precision = scene_labeler::kStandardPrecision);
 
 }  // namespace urban_nav

@@ -18,7 +18,9 @@ void appendProbability(std::string& text, float probability) {
 
 }  // namespace
 
-Json LabelRun::toJson() const {
+double toRoundDouble(float value) { return std::round(static_cast<double>(value) * 1e6) / 1e6; }
+
+Json LabelRun::toJson(const scene_labeler::LabelModel& model) const {
   Json json = Json::object();
   json["frames"] = frames;
   json["points"] = points;
@@ -32,16 +34,19 @@ Json LabelRun::toJson() const {
   json["modalities"] = std::move(modalities);
   json["unsure_share"] = labelled == 0 ? 0.0 : static_cast<double>(unsure) / static_cast<double>(labelled);
   json["new_place_frames"] = new_place_frames;
+  json["precision"] = model.precision;
+  json["sure_probability"] =
+      model.sure.empty() ? Json() : Json(toRoundDouble(model.sure.rowFor(model.precision).least));
   return json;
 }
 
 void labelScenes(const scene_labeler::LabelModel& model, const std::vector<SceneFiles>& scenes, int superpixel,
-                 Console& console, const std::function<void(std::size_t, const scene_labeler::SceneLabels&)>& take,
-                 LabelRun& run) {
+                 Console& console, const TakeSceneLabels& take, LabelRun& run) {
   if (scenes.empty()) return;
   Progress progress(console, "labels", "scenes", static_cast<std::int64_t>(scenes.size()));
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const scene_labeler::Scene scene = readScene(scenes[i]);
+    const SceneInput input = readScene(scenes[i]);
+    const scene_labeler::Scene& scene = input.scene;
     const auto begin = LabelClock::now();
     const scene_labeler::SceneLabels labels = scene_labeler::labelScene(model, scene, superpixel);
     const double seconds = std::chrono::duration<double>(LabelClock::now() - begin).count();
@@ -55,7 +60,7 @@ void labelScenes(const scene_labeler::LabelModel& model, const std::vector<Scene
       run.labelled += labels.labels[point] != scene_labeler::SceneClass::None ? 1U : 0U;
       run.unsure += labels.unsure[point];
     }
-    take(i, labels);
+    take(i, input, labels);
     progress.update(static_cast<std::int64_t>(i + 1));
   }
   progress.finish(static_cast<std::int64_t>(scenes.size()));

@@ -21,14 +21,20 @@ struct LabelRun {
   bool has_look = false;             ///< whether any scene has an image
 
   /// `frames`, `points`, `ms_per_frame_median`, `us_per_point`, `modalities`, `unsure_share`,
-  /// `new_place_frames`.
-  Json toJson() const;
+  /// `new_place_frames`, `precision`, `sure_probability` (null for a model without thresholds).
+  Json toJson(const scene_labeler::LabelModel& model) const;
 };
 
-/// Labels scenes one after another, calls take(index, labels), and adds the statistics to `run`.
+/// Called with the number of a scene, the scene, and its labels.
+using TakeSceneLabels =
+    std::function<void(std::size_t index, const SceneInput& input, const scene_labeler::SceneLabels& labels)>;
+
+/// Labels scenes one after another and adds the statistics to `run`.
 void labelScenes(const scene_labeler::LabelModel& model, const std::vector<SceneFiles>& scenes, int superpixel,
-                 Console& console, const std::function<void(std::size_t, const scene_labeler::SceneLabels&)>& take,
-                 LabelRun& run);
+                 Console& console, const TakeSceneLabels& take, LabelRun& run);
+
+/// Returns a share or probability with six decimals, without the digits that a float does not have.
+double toRoundDouble(float value);
 
 /// Returns the names of the columns of probabilities: ",p_grass,p_paved".
 std::string printClassColumns(const std::vector<scene_labeler::SceneClass>& classes);

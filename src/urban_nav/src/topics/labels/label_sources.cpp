@@ -45,6 +45,20 @@ LabelSources findLabelSources(const Arguments& arguments, const ParameterSet& pa
   return sources;
 }
 
+Option classesOption() {
+  return {"--classes",
+          "NAME|FILE",
+          "classes of the values of label: kitti, semantickitti, nuscenes, or a file id,class (default: the numbers of "
+          "the classes)",
+          false,
+          false,
+          {}};
+}
+
+scene_labeler::ClassMap readClassMap(const Arguments& arguments) {
+  return arguments.has("classes") ? scene_labeler::ClassMap(arguments.get("classes")) : scene_labeler::ClassMap();
+}
+
 std::vector<Option> driveCommandOptions() {
   return {{"--trajectory",
            "FILE",

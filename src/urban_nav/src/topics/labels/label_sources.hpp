@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/command.hpp"
+#include "scene_labeler/class_map.hpp"
 #include "topics/labels/drive_bag.hpp"
 #include "topics/labels/scene_files.hpp"
 
@@ -21,6 +22,10 @@ struct LabelSources {
 /// bag nor has scenes, a duplicate source, and if the numbers of --trajectory and bags differ.
 LabelSources findLabelSources(const Arguments& arguments, const ParameterSet& parameters,
                               const OdometryRunner& run_odometry);
+
+/// Option --classes of a command that reads labels, and its value.
+Option classesOption();
+scene_labeler::ClassMap readClassMap(const Arguments& arguments);
 
 /// Options of a command that reads bags: --topic and --trajectory.
 std::vector<Option> driveCommandOptions();

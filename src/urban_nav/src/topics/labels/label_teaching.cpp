@@ -38,7 +38,8 @@ bool isClickFile(const std::string& path) {
 
 LabelTeaching::LabelTeaching(const Arguments& arguments) {
   if (arguments.has("corrections")) corrections_ = arguments.get("corrections");
-  if (arguments.all("SRC").empty() && corrections_.empty())
+  keeps_classifier_ = arguments.all("SRC").empty() && corrections_.empty();
+  if (keeps_classifier_ && !arguments.has("add"))
     throw UserError("SRC", "is missing", "labelled scenes, or --add MODEL with --corrections EDITED.ply");
   if (arguments.get("features", "all") == "paper") features_ = FeatureSet::Paper;
   if (!arguments.has("add")) {
@@ -86,9 +87,10 @@ void LabelTeaching::addCorrections(const scene_labeler::ClassMap& map, const Dri
   const int superpixel = options.parameters->get(scene_labeler::table()).superpixel;
   const std::vector<SceneFiles> files = findScenes({corrections_});
   if (files.size() != 1) throw UserError(corrections_, std::to_string(files.size()) + " scenes", "one edited scene");
-  const std::vector<scene_labeler::SceneClass> labels = map.toClasses(readSceneLabels(files[0]), corrections_);
+  const std::vector<scene_labeler::SceneClass> labels =
+      map.toClasses(readSceneLabels(files[0], !map.isOwnNumbers()), corrections_);
   const std::string name = freeName("corrections of " + files[0].name, folds);
-  const auto count = scene_labeler::addCorrections(*base_, readScene(files[0]), labels, superpixel, name, folds);
+  const auto count = scene_labeler::addCorrections(*base_, readScene(files[0]).scene, labels, superpixel, name, folds);
   if (count.corrected == 0)
     throw urban_nav_core::DataError(corrections_, "no label differs from the prediction of the model",
                                     "corrected labels");

@@ -19,6 +19,9 @@ class LabelTeaching {
   /// model without samples or with other features, corrections without a model, and a command without training data.
   explicit LabelTeaching(const Arguments& arguments);
 
+  /// Returns whether there is neither SRC nor a correction: the classifier of the model is kept, and its thresholds of
+  /// sure labels are determined from its samples.
+  bool keepsClassifier() const { return keeps_classifier_; }
   /// Returns the model that training continues from; nullptr without --add.
   const scene_labeler::LabelModel* base() const { return base_ ? &*base_ : nullptr; }
   scene_labeler::FeatureSet features() const { return features_; }
@@ -37,6 +40,7 @@ class LabelTeaching {
   std::optional<scene_labeler::LabelModel> base_;
   scene_labeler::FeatureSet features_ = scene_labeler::FeatureSet::All;
   std::string corrections_;
+  bool keeps_classifier_ = false;
 };
 
 }  // namespace urban_nav

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "laser_mapper/map_files.hpp"
+#include "topics/labels/label_columns.hpp"
 #include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -13,7 +14,6 @@ namespace urban_nav {
 
 using scene_labeler::PointLabel;
 using scene_labeler::SceneClass;
-using urban_nav_core::PlyType;
 
 namespace {
 
@@ -21,35 +21,6 @@ constexpr const char* kLabelsState = "scene_labeler/map";
 constexpr const char* kLabelsSeal = "labels of a map";
 constexpr std::uint32_t kLabelsVersion = 1;
 constexpr std::size_t kLabelBytes = 3;  // class, probability, unsure
-
-/// Returns the class of a label in LAS files: those of the ASPRS, and 64 for vehicles. All ground has one class there;
-/// the extra byte distinguishes its kinds.
-std::uint8_t lasClassification(SceneClass label) {
-  switch (label) {
-    case SceneClass::Paved:
-    case SceneClass::Grass:
-    case SceneClass::DirtPath: return 2;  // ground
-    case SceneClass::TexturedWall:
-    case SceneClass::SmoothWall:
-    case SceneClass::Wall: return 6;      // building
-    case SceneClass::Foliage: return 5;   // high vegetation
-    case SceneClass::Vehicle: return 64;  // first user-defined class
-    default: return 1;                    // unclassified
-  }
-}
-
-/// Properties and comments that labels add to the layout of a map.
-urban_nav_core::PlyLayout labelLayout() {
-  urban_nav_core::PlyLayout layout;
-  layout.properties.push_back({"label", PlyType::UChar});
-  layout.properties.push_back({"label_probability", PlyType::Float});
-  layout.properties.push_back({"unsure", PlyType::UChar});
-  std::string classes = "label";
-  for (std::size_t k = 0; k < scene_labeler::kClassCount; ++k)
-    classes += " " + std::to_string(k) + " " + toString(static_cast<SceneClass>(k)) + ",";
-  layout.comments.push_back(classes + " 255 none");
-  return layout;
-}
 
 struct StoredLabels {
   std::int64_t digest = 0;  ///< of the points

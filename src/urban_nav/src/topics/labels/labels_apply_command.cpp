@@ -9,6 +9,7 @@
 #include "topics/labels/label_model_file.hpp"
 #include "topics/labels/label_score.hpp"
 #include "topics/labels/label_sources.hpp"
+#include "topics/labels/labelled_cloud_files.hpp"
 #include "topics/labels/labels_actions.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -20,6 +21,8 @@ namespace urban_nav {
 using scene_labeler::ClassMap;
 
 namespace {
+
+constexpr double kLowestPrecision = 0.5, kHighestPrecision = 0.999;  // as of parameter precision
 
 std::string labelsHelp(const Arguments& arguments) { return stageHelp(arguments, scene_labeler::table().stage()); }
 
@@ -34,28 +37,74 @@ void warnOfNewPlace(const LabelRun& run, Console& console) {
   if (!warning.empty()) console.warn(warning);
 }
 
-/// Labels a bag into two files, which appear when both are complete.
+/// Files of the labels of one side laser.
+class SideLabelFiles {
+ public:
+  /// `base`: path without extension.
+  SideLabelFiles(const std::string& base, const LabelFormats& formats, const scene_labeler::LabelModel& model)
+      : cloud_(base, formats, {false, true, true}) {
+    if (!formats.csv) return;
+    csv_.emplace(base + ".csv");
+    csv_->write(printDriveHeader(model.classes));
+  }
+  void append(const std::vector<scene_labeler::DriveReturn>& returns, const scene_labeler::SceneLabels& labels) {
+    if (csv_) csv_->write(printDriveLabels(returns, labels));
+    appendDrive(returns, labels, cloud_);
+  }
+  void commit() {
+    if (csv_) csv_->commit();
+    cloud_.commit();
+  }
+
+ private:
+  std::optional<urban_nav_core::AtomicFile> csv_;
+  LabelledCloudFiles cloud_;
+};
+
+/// Labels a bag into files, which appear when all are complete.
 void applyToBag(const scene_labeler::LabelModel& model, const std::string& bag, const DriveOptions& options,
-                const std::filesystem::path& folder, Console& console, LabelRun& run) {
+                const std::filesystem::path& folder, const LabelFormats& formats, Console& console, LabelRun& run) {
   std::filesystem::create_directories(folder);
-  urban_nav_core::AtomicFile left((folder / "laser_left_labels.csv").string()),
-      right((folder / "laser_right_labels.csv").string());
-  for (urban_nav_core::AtomicFile* file : {&left, &right}) file->write(printDriveHeader(model.classes));
+  SideLabelFiles left((folder / "laser_left_labels").string(), formats, model),
+      right((folder / "laser_right_labels").string(), formats, model);
   labelDrive(
       model, bag, options, console,
       [&](DriveSide side, const std::vector<scene_labeler::DriveReturn>& returns,
           const scene_labeler::SceneLabels& labels) {
-        (side == DriveSide::Left ? left : right).write(printDriveLabels(returns, labels));
+        (side == DriveSide::Left ? left : right).append(returns, labels);
       },
       run);
   left.commit();
   right.commit();
 }
 
+/// Writes the files of a labelled scene.
+void writeScene(const std::string& base, const LabelFormats& formats, const SceneInput& input,
+                const scene_labeler::SceneLabels& labels, Console& console) {
+  if (formats.csv) urban_nav_core::writeAtomically(base + ".csv", printSceneLabels(labels));
+  const std::size_t left_out = writeSceneCloud(base, formats, input, labels);
+  if (left_out > 0)
+    console.warn(base + ".las: " + std::to_string(left_out) +
+                 " points are left out, which are not finite or more than 200 km from the first one");
+  if (!labels.image.empty()) writeLabelImage(labels.image, base + ".png");
+}
+
+scene_labeler::LabelModel readAppliedModel(const Arguments& arguments, const ParameterSet& parameters,
+                                           Console& console) {
+  const double precision = arguments.number("precision", parameters.get(scene_labeler::table()).precision,
+                                            kLowestPrecision, kHighestPrecision);
+  const std::string path = arguments.get("MODEL");
+  scene_labeler::LabelModel model = readLabelModel(path, precision).model;
+  const std::string note = scene_labeler::thresholdNote(model.sure, precision, path);
+  if (!note.empty()) console.warn(note);
+  return model;
+}
+
 int runLabelsApply(const OdometryRunner& run_odometry, const Arguments& arguments, Console& console) {
   const ParameterSet parameters = loadParameters(arguments);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
-  const scene_labeler::LabelModel model = readLabelModel(arguments.get("MODEL")).model;
+  const scene_labeler::LabelModel model = readAppliedModel(arguments, parameters, console);
+  const LabelFormats formats = readLabelFormats(arguments);
   const LabelSources sources = findLabelSources(arguments, parameters, run_odometry);
   const std::vector<SceneFiles>& scenes = sources.scenes;
   for (std::size_t i = 1; i < scenes.size(); ++i)
@@ -67,21 +116,19 @@ int runLabelsApply(const OdometryRunner& run_odometry, const Arguments& argument
   LabelRun run;
   for (std::size_t i = 0; i < sources.bags.size(); ++i)
     applyToBag(model, sources.bags[i], sources.drives[i],
-               sources.bags.size() == 1 ? folder : folder / std::filesystem::path(sources.bags[i]).stem(), console,
-               run);
+               sources.bags.size() == 1 ? folder : folder / std::filesystem::path(sources.bags[i]).stem(), formats,
+               console, run);
   labelScenes(
       model, scenes, parameters.get(scene_labeler::table()).superpixel, console,
-      [&](std::size_t i, const scene_labeler::SceneLabels& labels) {
-        const std::string base = (folder / (scenes[i].name + "_labels")).string();
-        urban_nav_core::writeAtomically(base + ".csv", printSceneLabels(labels));
-        if (!labels.image.empty()) writeLabelImage(labels.image, base + ".png");
+      [&](std::size_t i, const SceneInput& input, const scene_labeler::SceneLabels& labels) {
+        writeScene((folder / (scenes[i].name + "_labels")).string(), formats, input, labels, console);
       },
       run);
   console.info(std::to_string(run.labelled) + " of " + std::to_string(run.points) + " points in " +
                std::to_string(run.frames) + " scenes are labelled, " + std::to_string(run.unsure) + " of them unsure" +
                (run.has_look ? "" : "; without images: by shape only"));
   warnOfNewPlace(run, console);
-  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), run.toJson().print());
+  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), run.toJson(model).print());
   return 0;
 }
 
@@ -97,7 +144,7 @@ SourceTruth readSourceTruth(const LabelSources& sources, const ClassMap& map) {
     truth.drives.push_back({DriveTruth(DriveTruth::path(bag, DriveSide::Left), map),
                             DriveTruth(DriveTruth::path(bag, DriveSide::Right), map)});
   for (const SceneFiles& files : sources.scenes)
-    truth.scenes.push_back(map.toClasses(readSceneLabels(files), files.points));
+    truth.scenes.push_back(map.toClasses(readSceneLabels(files, !map.isOwnNumbers()), files.points));
   return truth;
 }
 
@@ -112,8 +159,8 @@ bool hasOneWall(const scene_labeler::LabelModel& model, const SourceTruth& truth
 int runLabelsEvaluate(const OdometryRunner& run_odometry, const Arguments& arguments, Console& console) {
   const ParameterSet parameters = loadParameters(arguments);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
-  const scene_labeler::LabelModel model = readLabelModel(arguments.get("MODEL")).model;
-  const ClassMap map = arguments.has("classes") ? ClassMap(arguments.get("classes")) : ClassMap();
+  const scene_labeler::LabelModel model = readAppliedModel(arguments, parameters, console);
+  const ClassMap map = readClassMap(arguments);
   const LabelSources sources = findLabelSources(arguments, parameters, run_odometry);
   const SourceTruth truth = readSourceTruth(sources, map);
   LabelScore score(hasOneWall(model, truth));
@@ -131,13 +178,16 @@ int runLabelsEvaluate(const OdometryRunner& run_odometry, const Arguments& argum
         run);
   labelScenes(
       model, sources.scenes, parameters.get(scene_labeler::table()).superpixel, console,
-      [&](std::size_t i, const scene_labeler::SceneLabels& labels) { score.add(labels, truth.scenes[i]); }, run);
+      [&](std::size_t i, const SceneInput&, const scene_labeler::SceneLabels& labels) {
+        score.add(labels, truth.scenes[i]);
+      },
+      run);
   if (score.points() == 0)
     throw urban_nav_core::DataError("SRC", "no point has a label to compare with", "labelled scenes");
   console.print(score.print());
   warnOfNewPlace(run, console);
   if (arguments.has("json")) {
-    Json json = run.toJson();
+    Json json = run.toJson(model);
     score.addTo(json);
     urban_nav_core::writeAtomically(arguments.get("json"), json.print());
   }
@@ -146,10 +196,17 @@ int runLabelsEvaluate(const OdometryRunner& run_odometry, const Arguments& argum
 
 std::vector<Option> modelAndScenes() {
   return {{"MODEL", "", "model of labels train", true, false, {}},
-          {"SRC", "", "bags, folders of scenes NAME_points.{csv,ply}[.gz], or such files", true, true, {}}};
+          {"SRC", "", "bags, folders of scenes NAME_points.{csv,ply,las}[.gz], or such files", true, true, {}}};
 }
 
 void addCommonLabelOptions(Command& action) {
+  action.options.push_back({"--precision",
+                            "P",
+                            "share of the labels that are not unsure which is right (default: "
+                            "scene_labeler.precision, 0.98)",
+                            false,
+                            false,
+                            {}});
   for (const Option& option : {jsonOption(), configOption(), setOption(), threadsOption()})
     action.options.push_back(option);
   for (const Option& option : driveCommandOptions()) action.options.push_back(option);
@@ -165,11 +222,12 @@ Command labelsApplyAction(const OdometryRunner& run_odometry) {
   action.options = modelAndScenes();
   action.options.push_back({"-o,--output",
                             "DIR",
-                            "folder for NAME_labels.csv and, for scenes with an image, NAME_labels.png; of a bag "
-                            "laser_{left,right}_labels.csv",
+                            "folder for NAME_labels.{csv,ply,las} and, for scenes with an image, NAME_labels.png; of a "
+                            "bag laser_{left,right}_labels.{csv,ply,las}",
                             true,
                             false,
                             {}});
+  action.options.push_back(labelFormatsOption());
   addCommonLabelOptions(action);
   action.examples = {"urban_nav labels apply street.labels scenes -o labelled"};
   action.run = [run_odometry](const Arguments& arguments, Console& console) {
@@ -183,12 +241,7 @@ Command labelsEvaluateAction(const OdometryRunner& run_odometry) {
   action.name = "evaluate";
   action.summary = "Compares the labels of a model with those in scenes.";
   action.options = modelAndScenes();
-  action.options.push_back({"--classes",
-                            "FILE",
-                            "id,class for the values of label (default: the numbers of the classes)",
-                            false,
-                            false,
-                            {}});
+  action.options.push_back(classesOption());
   addCommonLabelOptions(action);
   action.examples = {"urban_nav labels evaluate street.labels scenes --classes classes.csv"};
   action.run = [run_odometry](const Arguments& arguments, Console& console) {

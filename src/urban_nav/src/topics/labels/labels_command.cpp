@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
 #include "base/parameters.hpp"
 #include "base/usage.hpp"
 #include "scene_labeler/class_map.hpp"
@@ -39,8 +41,8 @@ void readTrainingScenes(const std::vector<SceneFiles>& scenes, const ClassMap& m
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     scene_labeler::TrainingScene training;
     training.fold = names[i];
-    training.labels = map.toClasses(readSceneLabels(scenes[i]), scenes[i].points);
-    const scene_labeler::Scene scene = readScene(scenes[i]);
+    training.labels = map.toClasses(readSceneLabels(scenes[i], !map.isOwnNumbers()), scenes[i].points);
+    const scene_labeler::Scene scene = readScene(scenes[i]).scene;
     for (std::size_t point = 0; point < scene.points.size(); ++point)
       if (!scene.points[point].allFinite()) training.labels[point] = scene_labeler::SceneClass::None;
     training.features = scene_labeler::measureFeatures(scene, features);
@@ -82,9 +84,26 @@ Json trainingJson(const scene_labeler::TrainedModel& trained, const std::string&
   for (const auto& setting : trained.cross_validation) json["cross_validation"].append(settingJson(setting));
   json["chosen"] = Json::object();
   if (!trained.cross_validation.empty()) json["chosen"] = settingJson(trained.cross_validation[trained.chosen]);
+  json["sure"] = Json::array();
+  for (const auto& row : trained.model.sure.rows())
+    json["sure"].append(Json::object({{"probability", toRoundDouble(row.least)},
+                                      {"wrong", toRoundDouble(row.wrong)},
+                                      {"answered", toRoundDouble(row.answered)}}));
   json["seconds"] = seconds;
   json["digest"] = scene_labeler::modelDigest(bytes);
   return json;
+}
+
+/// Describes the threshold of sure labels for the standard precision.
+std::string sureSentence(const scene_labeler::LabelModel& model) {
+  using urban_nav_core::printNumber;
+  if (model.sure.empty()) return "one site: no thresholds of sure labels, which need cross-validation by site";
+  const auto& row = model.sure.rowFor(scene_labeler::kStandardPrecision);
+  const auto percent = [](float share) {
+    return printNumber(std::round(1000.0 * static_cast<double>(share)) / 10.0) + " %";
+  };
+  return "labels are sure from a probability of " + printNumber(row.least) + ": " +
+         percent(row.answered) + " of the returns of held-out sites, " + percent(row.wrong) + " of these wrong";
 }
 
 int runLabelsTrain(const OdometryRunner& run_odometry, const Arguments& arguments, Console& console) {
@@ -94,11 +113,11 @@ int runLabelsTrain(const OdometryRunner& run_odometry, const Arguments& argument
   const LabelTeaching teaching(arguments);
   scene_labeler::TrainingOptions options;
   options.base = teaching.base();
-  options.adds_trees = arguments.all("SRC").empty();
+  options.adds_trees = arguments.all("SRC").empty() && !teaching.keepsClassifier();
   options.kind = classifierFrom(arguments, options.base ? options.base->kind : ClassifierKind::Boosted);
   options.features = teaching.features();
   options.seed = static_cast<std::uint64_t>(arguments.integer("seed", 1, 0, 1'000'000'000));
-  const ClassMap map = arguments.has("classes") ? ClassMap(arguments.get("classes")) : ClassMap();
+  const ClassMap map = readClassMap(arguments);
   options.samples_per_class = static_cast<std::size_t>(parameters.get(scene_labeler::table()).samples);
   const LabelSources sources = findLabelSources(arguments, parameters, run_odometry);
   options.device = teaching.device(sources);
@@ -107,9 +126,14 @@ int runLabelsTrain(const OdometryRunner& run_odometry, const Arguments& argument
   folds = readTrainingSources(sources, map, options.features, superpixel, console, std::move(folds));
   teaching.addCorrections(map, {run_odometry, &parameters, arguments.all("topic"), ""}, console, folds);
   Progress progress(console, "training", "%", 100);
-  const scene_labeler::TrainedModel trained = scene_labeler::trainModel(
+  scene_labeler::TrainedModel trained = scene_labeler::trainModel(
       std::move(folds), options, [&](double share) { progress.update(static_cast<std::int64_t>(100.0 * share)); });
   progress.finish(100);
+  if (teaching.keepsClassifier()) {
+    scene_labeler::SureThresholds sure = std::move(trained.model.sure);
+    trained.model = *teaching.base();
+    trained.model.sure = std::move(sure);
+  }
   const std::string bytes = scene_labeler::printModel(trained.model);
   urban_nav_core::writeAtomically(arguments.get("output"), bytes);
   const std::string quality = trained.cross_validation.empty()
@@ -117,6 +141,7 @@ int runLabelsTrain(const OdometryRunner& run_odometry, const Arguments& argument
                                   : "mean F1 " +
                                         urban_nav_core::printNumber(trained.cross_validation[trained.chosen].f1_mean) +
                                         " in cross-validation";
+  console.info(sureSentence(trained.model));
   console.info(std::string(toString(trained.model.kind)) + " of " + std::to_string(trained.folds) + " folds, " +
                quality + "; model " + scene_labeler::modelDigest(bytes) + ", " + std::to_string(bytes.size()) +
                " bytes");
@@ -132,16 +157,22 @@ Command labelsTrainAction(const OdometryRunner& run_odometry) {
   action.options = {
       {"SRC",
        "",
-       "bags with BAG_STEM.truth, folders of scenes NAME_points.{csv,ply}[.gz] with labels, or such files",
+       "bags with BAG_STEM.truth, folders of scenes NAME_points.{csv,ply,las}[.gz] with labels, or such files",
        false,
        true,
        {}},
       {"-o,--output", "MODEL", "model to write", true, false, {}},
       {"--classifier", "NAME", "kind of classifier (default boosted)", false, false, {"svm", "forest", "boosted"}},
       {"--features", "NAME", "features of a return (default all)", false, false, {"paper", "all"}},
-      {"--classes", "FILE", "id,class for the values of label (default: the numbers of the classes)", false, false, {}},
+      classesOption(),
       {"--seed", "N", "seed of the samples and features (default 1)", false, false, {}},
-      {"--add", "MODEL", "model whose samples are added; SRC may be omitted with --corrections", false, false, {}},
+      {"--add",
+       "MODEL",
+       "model whose samples are added; SRC may be omitted with --corrections. Alone: MODEL is kept and given the "
+       "thresholds of sure labels by cross-validation over its samples",
+       false,
+       false,
+       {}},
       {"--corrections",
        "EDITED",
        "map.ply or scene with edited column label or scalar_label, or bag,side,stamp_ns,beam,class of clicks in bags",

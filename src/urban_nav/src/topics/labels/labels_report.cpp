@@ -61,6 +61,7 @@ PageTable classesTable(const LabelsRun& run) {
 
 std::vector<std::string> labelsWarnings(const LabelsRun& run) {
   std::vector<std::string> warnings;
+  if (!run.threshold_note.empty()) warnings.push_back(run.threshold_note);
   if (run.points() > 0 && run.views() == 0)
     warnings.emplace_back("no image of a side camera: the map is labelled by shape only");
   if (run.unusable() > 0)

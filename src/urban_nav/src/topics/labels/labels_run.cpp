@@ -282,6 +282,7 @@ LabelsRun runLabels(const NamedLabelModel& model, MapContext& context) {
   const ClassImagesOfSessions classes = findClassImages(parameters, context);
   LabelsRun run;
   run.model = model.digest;
+  run.threshold_note = scene_labeler::thresholdNote(model.model.sure, parameters.precision, parameters.model);
   run.class_topic = parameters.class_topic;
   Progress bar(context.console, "labels", "maps", static_cast<std::int64_t>(sessions_of_map.size()));
   for (const auto& [map, sessions] : sessions_of_map) {

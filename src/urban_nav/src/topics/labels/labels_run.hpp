@@ -40,6 +40,7 @@ struct LabelsRun {
   std::vector<LabelledMap> maps;
   std::vector<double> milliseconds;  ///< of each image
   std::string model;                 ///< digest
+  std::string threshold_note;        ///< of thresholdNote()
   std::string class_topic;           ///< of class images from another source; empty: none
   double seconds = 0.0;
 

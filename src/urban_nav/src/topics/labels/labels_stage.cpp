@@ -42,7 +42,8 @@ class LabelsStage final : public Stage {
   }
 
   Messages run(MapContext& context) override {
-    run_ = runLabels(readLabelModel(context.options.parameters.get(scene_labeler::table()).model), context);
+    const scene_labeler::Parameters& parameters = context.options.parameters.get(scene_labeler::table());
+    run_ = runLabels(readLabelModel(parameters.model, parameters.precision), context);
     return {
         {"labels: " + std::to_string(run_->labelled()) + " of " + std::to_string(run_->points()) + " points from " +
          std::to_string(run_->views()) + " images, " + std::to_string(run_->unsure()) + " of them unsure, in " +

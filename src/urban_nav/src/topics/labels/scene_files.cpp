@@ -22,13 +22,29 @@ using urban_nav_core::UserError;
 namespace {
 
 constexpr double kFarCoordinate = 1000.0;  // m, where a float resolves 0.06 mm
-const char* const kSceneRule = "a folder of NAME_points.csv or .ply (also .gz), or one such file";
+const char* const kSceneRule = "a folder of NAME_points.csv, NAME_points.ply or .las (also .gz), or one such file";
+/// Columns of labels, the first one present counts: ours, CloudCompare's, KITTI-360's.
+const std::vector<std::string> kLabelColumns = {"label", "scalar_label", "semantic", "classification"};
+constexpr double kLargestLabel = 4294967295.0;  // SemanticKITTI: instance and class in 32 bits
 
 /// Returns the name of a file of returns without extension; nullopt for other extensions.
 std::optional<std::string> withoutCloudExtension(std::string name) {
   if (urban_nav_core::endsWith(name, ".gz")) name.resize(name.size() - 3);
-  if (!urban_nav_core::endsWith(name, ".csv") && !urban_nav_core::endsWith(name, ".ply")) return std::nullopt;
-  return name.substr(0, name.size() - 4);
+  for (const char* extension : {".csv", ".ply", ".las"})
+    if (urban_nav_core::endsWith(name, extension)) return name.substr(0, name.size() - 4);
+  return std::nullopt;
+}
+
+std::string withoutPoints(const std::string& name) {
+  return urban_nav_core::endsWith(name, "_points") ? name.substr(0, name.size() - 7) : name;
+}
+
+/// Returns whether a file of a folder is a scene: NAME_points, or a LAS tile whose name is not that of a result of
+/// `apply`.
+bool isSceneOfFolder(const std::filesystem::path& file, const std::string& name) {
+  const std::string path = file.filename().string();
+  const bool is_las = urban_nav_core::endsWith(path, ".las") || urban_nav_core::endsWith(path, ".las.gz");
+  return urban_nav_core::endsWith(name, "_points") || (is_las && !urban_nav_core::endsWith(name, "_labels"));
 }
 
 SceneFiles filesOfScene(const std::filesystem::path& points, const std::string& name) {
@@ -48,8 +64,8 @@ std::vector<SceneFiles> scenesOfFolder(const std::string& folder) {
   std::vector<SceneFiles> scenes;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const auto name = withoutCloudExtension(entry.path().filename().string());
-    if (!name || !urban_nav_core::endsWith(*name, "_points") || !entry.is_regular_file()) continue;
-    scenes.push_back(filesOfScene(entry.path(), name->substr(0, name->size() - 7)));
+    if (name && entry.is_regular_file() && isSceneOfFolder(entry.path(), *name))
+      scenes.push_back(filesOfScene(entry.path(), withoutPoints(*name)));
   }
   if (scenes.empty()) throw UserError(folder, "holds no scene", kSceneRule);
   return scenes;
@@ -63,8 +79,7 @@ std::vector<SceneFiles> scenesOfSource(const std::string& source) {
   if (!name)
     throw UserError(source, urban_nav_input::isRecording(source) ? "is a recording, not a scene" : "is not a scene",
                     kSceneRule);
-  const bool has_suffix = urban_nav_core::endsWith(*name, "_points");
-  return {filesOfScene(path, has_suffix ? name->substr(0, name->size() - 7) : *name)};
+  return {filesOfScene(path, withoutPoints(*name))};
 }
 
 Eigen::Matrix<double, 3, 4> readProjection(const std::string& path) {
@@ -114,33 +129,37 @@ std::vector<std::string> uniqueSceneNames(const std::vector<SceneFiles>& scenes)
   return names;
 }
 
-scene_labeler::Scene readScene(const SceneFiles& files) {
+SceneInput readScene(const SceneFiles& files) {
   const auto columns = urban_nav_core::readCloudColumns(files.points, {"x", "y", "z", "reflectance"});
   if (!columns[0] || !columns[1] || !columns[2])
     throw UserError(files.points, "a column x, y or z is missing", "x,y,z[,reflectance][,label]");
-  scene_labeler::Scene scene;
+  SceneInput input;
+  scene_labeler::Scene& scene = input.scene;
   scene.name = files.name;
-  const Eigen::Vector3d offset(offsetAlong(*columns[0]), offsetAlong(*columns[1]), offsetAlong(*columns[2]));
+  input.offset = {offsetAlong(*columns[0]), offsetAlong(*columns[1]), offsetAlong(*columns[2])};
   for (std::size_t i = 0; i < columns[0]->size(); ++i) {
     const Eigen::Vector3d point((*columns[0])[i], (*columns[1])[i], (*columns[2])[i]);
-    scene.points.push_back((point - offset).cast<float>());
+    scene.points.push_back((point - input.offset).cast<float>());
   }
   if (columns[3]) scene.reflectance.assign(columns[3]->begin(), columns[3]->end());
-  if (files.image.empty()) return scene;
+  if (files.image.empty()) return input;
   scene.view.image = readColourImage(files.image);
   Eigen::Matrix<double, 3, 4> projection = readProjection(files.projection);
-  projection.col(3) += projection.leftCols<3>() * offset;
+  projection.col(3) += projection.leftCols<3>() * input.offset;
   scene_labeler::projectScene(projection, scene);
-  return scene;
+  return input;
 }
 
-std::vector<std::int64_t> readSceneLabels(const SceneFiles& files) {
-  const auto columns = urban_nav_core::readCloudColumns(files.points, {"label", "scalar_label"});
-  const auto& column = columns[0] ? columns[0] : columns[1];
-  if (!column) throw UserError(files.points, "has no column label", "x,y,z[,reflectance],label");
+std::vector<std::int64_t> readSceneLabels(const SceneFiles& files, bool has_class_map) {
+  auto columns = urban_nav_core::readCloudColumns(files.points, kLabelColumns);
+  if (!has_class_map && columns[3] && !columns[0] && !columns[1] && !columns[2])
+    throw UserError(files.points, "has no column label; its classification has other numbers than the classes",
+                    "--classes FILE with the classes of its codes");
+  const auto column = std::find_if(columns.begin(), columns.end(), [](const auto& one) { return one.has_value(); });
+  if (column == columns.end()) throw UserError(files.points, "has no column label", "x,y,z[,reflectance],label");
   std::vector<std::int64_t> labels;
-  for (const double value : *column) {
-    if (!(std::abs(value) <= 1e9) || value != std::floor(value))
+  for (const double value : **column) {
+    if (!(std::abs(value) <= kLargestLabel) || value != std::floor(value))
       throw UserError(files.points, "label = " + urban_nav_core::printNumber(value), "whole numbers");
     labels.push_back(static_cast<std::int64_t>(value));
   }

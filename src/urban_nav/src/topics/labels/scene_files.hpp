@@ -25,12 +25,20 @@ std::vector<SceneFiles> findScenes(const std::vector<std::string>& sources);
 /// Returns a unique name for each scene: its name, or its path if two scenes have the same name.
 std::vector<std::string> uniqueSceneNames(const std::vector<SceneFiles>& scenes);
 
-/// Reads the returns and the image of a scene; no labels. Coordinates beyond 1 km are moved near the origin. Throws
-/// UserError for a file of another format, DataError for an image that cannot be decoded.
-scene_labeler::Scene readScene(const SceneFiles& files);
+/// A scene as read.
+struct SceneInput {
+  scene_labeler::Scene scene;
+  /// m, whole: a point of the file is `offset` + a point of the scene. 0 along axes whose coordinates are within 1 km.
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+};
 
-/// Reads the column `label`, or `scalar_label` of CloudCompare, of the returns. Throws UserError if there is neither,
-/// or for a non-integer value.
-std::vector<std::int64_t> readSceneLabels(const SceneFiles& files);
+/// Reads the returns and the image of a scene; no labels. Throws UserError for a file of another format, DataError for
+/// an image that cannot be decoded.
+SceneInput readScene(const SceneFiles& files);
+
+/// Reads the column `label` of the returns, otherwise `scalar_label` (CloudCompare), `semantic` (KITTI-360), or
+/// `classification` (LAS). Throws UserError without any of them, for a non-integer value, and for a classification
+/// without a class map, since its codes are not numbers of classes.
+std::vector<std::int64_t> readSceneLabels(const SceneFiles& files, bool has_class_map);
 
 }  // namespace urban_nav

@@ -17,6 +17,9 @@ using SharedCalibrations = std::shared_ptr<std::vector<SessionCalibration>>;
 /// `calibrations`.
 std::unique_ptr<Stage> makeCalibrationStage(SharedCalibrations calibrations);
 
+/// Returns the stage that stores sweeps of 3D LiDARs for the map, closures and localization.
+std::unique_ptr<Stage> makeSweepsStage();
+
 /// Returns the stage that renders the laser scans of all sessions along their trajectories into map.ply.
 /// `along_odometry`: calibrations of stage calibration in the same run.
 std::unique_ptr<Stage> makeLasersStage(SharedCalibrations along_odometry);

@@ -7,7 +7,7 @@
 #include "topics/lasers/calibration_report.hpp"
 #include "topics/lasers/lasers_report.hpp"
 #include "topics/lasers/lasers_run.hpp"
-#include "topics/lasers/sensor_pass.hpp"
+#include "topics/lasers/panorama_pass.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/types/error.hpp"
 
@@ -20,9 +20,7 @@ class LasersStage final : public Stage {
   explicit LasersStage(SharedCalibrations along_odometry) : along_odometry_(std::move(along_odometry)) {}
 
   Description describe() const override {
-    Description description{"lasers", "laser_mapper", true, false, false, {"map#.ply", "quality#.csv"}};
-    description.uses_sweeps = true;
-    return description;
+    return {"lasers", "laser_mapper", true, false, false, {"map#.ply", "quality#.csv"}};
   }
   void addTables(ParameterSet& parameters) const override { parameters.add(laser_mapper::table()); }
   Selection select(const MapOptions& options) const override {
@@ -38,7 +36,7 @@ class LasersStage final : public Stage {
   std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
     storeFixes(context, start.session);                                                   // export --crs needs them
     laser_mapper::forgetCalibration(*context.store, context.sessions[start.session].id);  // of an earlier run
-    return std::make_unique<SensorPass>(context, start);
+    return std::make_unique<PanoramaPass>(context, start);
   }
 
   std::string missingInput(const MapContext& context) const override {

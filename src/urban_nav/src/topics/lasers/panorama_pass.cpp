@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "topics/lasers/map_colour.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_panorama.hpp"
@@ -15,6 +16,9 @@ using urban_nav_store::StoredPanoramaCamera;
 using urban_nav_store::TableStore;
 
 namespace {
+
+constexpr urban_nav_core::TravelSpacing::Spacing kPanoramaSpacing{0.5 * kViewDistance, 0.5 * kViewAngle};
+constexpr const char* kPanorama = "panorama";  // role
 
 std::optional<StoredPanoramaCamera> storedCamera(const urban_nav_input::PanoramaCamera& camera,
                                                  const urban_nav_store::SessionId& session) {
@@ -42,21 +46,22 @@ std::optional<StoredPanoramaCamera> storedCamera(const urban_nav_input::Panorama
 }  // namespace
 
 PanoramaPass::PanoramaPass(MapContext& context, const Stage::SessionStart& start)
-    : store_(*context.store), id_(context.sessions[start.session].id) {
-  TableStore<StoredPanoramaCamera> cameras(store_);
-  for (const urban_nav_input::PanoramaCamera& camera : context.sessions[start.session].info.panorama) {
-    const std::optional<StoredPanoramaCamera> row = storedCamera(camera, id_);
+    : SpacedPass("panoramas of a session", kPanoramaSpacing, context, start) {
+  TableStore<StoredPanoramaCamera> cameras(store());
+  for (const urban_nav_input::PanoramaCamera& camera : session().info.panorama) {
+    const std::optional<StoredPanoramaCamera> row = storedCamera(camera, session().id);
     if (row) cameras.put(*row);
     cameras_.push_back(row ? std::optional(row->camera) : std::nullopt);
   }
 }
 
 void PanoramaPass::process(const urban_nav_ros::Panorama& panorama) {
-  TableStore<StoredPanorama> rows(store_);
+  if (!takes(kPanorama, panorama.stamp)) return;
+  TableStore<StoredPanorama> rows(store());
   for (std::size_t i = 0; i < std::min(panorama.images.size(), cameras_.size()); ++i) {
     if (!cameras_[i] || panorama.images[i].empty()) continue;
     std::string jpeg = panorama.images[i].jpeg();
-    if (!jpeg.empty()) rows.put({id_, *cameras_[i], panorama.images[i].stamp(), std::move(jpeg)});
+    if (!jpeg.empty()) rows.put({session().id, *cameras_[i], panorama.images[i].stamp(), std::move(jpeg)});
   }
 }
 

@@ -43,7 +43,11 @@ LoRecorder::LoRecorder(const laser_odometry::Parameters& parameters, const urban
   found->camera = run.camera;
   found->T_base_camera = run.T_base_camera;
   run_ = std::move(*found);
-  if (!odometry.empty()) odometry_.emplace(parameters, T_base_lidar_, odometry);
+  if (!odometry.empty()) odometry_.emplace(parameters, T_base_lidar_, odometry, scanner());
+}
+
+laser_odometry::Scanner LoRecorder::scanner() const {
+  return run_.is_planar ? laser_odometry::Scanner::Planar : laser_odometry::Scanner::Spatial;
 }
 
 void LoRecorder::process(const urban_nav_input::SweepInput& input) {
@@ -55,7 +59,8 @@ void LoRecorder::process(const urban_nav_input::SweepInput& input) {
   if (!odometry_) {
     T_base_lidar_ = input.T_base_lidar;
     run_.T_base_lidar = T_base_lidar_;
-    odometry_.emplace(parameters_, T_base_lidar_);
+    run_.is_planar = input.is_planar;
+    odometry_.emplace(parameters_, T_base_lidar_, scanner());
   }
   if (input.sweep.times == urban_nav_core::Sweep::Times::Unknown) ++untimed_;
   using Clock = std::chrono::steady_clock;
@@ -111,7 +116,8 @@ void LoRecorder::finish(const PassEnd& end) {
   }
   if (untimed_ > 0) {
     run_.faults.push_back(run_.input + ": " + std::to_string(untimed_) + " of " + std::to_string(run_.frames.size()) +
-                          " sweeps are not deskewed: without times of their points (input.points_time)");
+                          " sweeps are not deskewed: without times of their " +
+                          (run_.is_planar ? "beams (time_increment is zero)" : "points (input.points_time)"));
     ++run_.faults_total;
   }
   std::vector<urban_nav_core::StampNs> stamps;

@@ -27,6 +27,7 @@ class LoRecorder {
   std::string state() const;
 
  private:
+  laser_odometry::Scanner scanner() const;
   void record(const laser_odometry::LaserPose& pose, double ms);
   void sampleSurface();
 

@@ -11,7 +11,7 @@ using urban_nav_core::Archive;
 namespace {
 
 constexpr const char* kLoRunName = "laser odometry of a session";
-constexpr std::uint32_t kLoRunVersion = 2;
+constexpr std::uint32_t kLoRunVersion = 3;
 
 /// A sweep in a stored state.
 struct StoredSweep {
@@ -42,8 +42,8 @@ struct StoredLoRun {
 };
 
 void archiveMembers(Archive& archive, LoRun& run, StoredLoRun& stored) {
-  archive(run.role, run.T_base_lidar, stored.sweeps, stored.poses, run.surface, run.faults, run.faults_total,
-          run.forces);
+  archive(run.role, run.is_planar, run.T_base_lidar, stored.sweeps, stored.poses, run.surface, run.faults,
+          run.faults_total, run.forces);
   archive.require(stored.poses.size() <= stored.sweeps.size(), "more poses than sweeps");
 }
 

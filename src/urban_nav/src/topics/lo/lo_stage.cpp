@@ -106,7 +106,7 @@ class LoStage final : public Stage {
   }
 
   std::string missingInput(const MapContext&) const override {
-    return runs().empty() ? "no sweeps of a 3D LiDAR, or odometry by stereo" : "";
+    return runs().empty() ? "no sweeps of a 3D LiDAR or a horizontal planar laser, or odometry by stereo" : "";
   }
 
   Messages run(MapContext& context) override {

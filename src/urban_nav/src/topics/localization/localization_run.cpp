@@ -16,12 +16,14 @@
 #include "urban_nav_localization/cloud_search.hpp"
 #include "urban_nav_localization/map_search.hpp"
 #include "urban_nav_registration/session/session_lasers.hpp"
+#include "urban_nav_registration/session/stored_beams.hpp"
 #include "urban_nav_registration/session/stored_keyframe.hpp"
 
 namespace urban_nav {
 
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
+using urban_nav_localization::BeamSources;
 using urban_nav_localization::LocalizationEstimate;
 using urban_nav_localization::LocalizationState;
 using urban_nav_store::Store;
@@ -30,29 +32,37 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Registers local clouds of a run to the map; does nothing without scans.
+/// Registers local clouds of a run to the map; does nothing without scans or sweeps.
 class CloudComparisons {
  public:
   CloudComparisons(const urban_nav_localization::Parameters& parameters, const urban_nav_localization::FrozenMap& map,
                    Store& frozen, Store& own, const urban_nav_store::SessionId& id, const SessionOdometry& run,
                    Console& console)
-      : console_(console) {
-    if (!parameters.icp || own.scans().lasers(id).empty()) return;
-    scans_ = urban_nav_registration::storedScans(own.scans(), id, urban_nav_registration::storedLasers(own, id));
+      : console_(console), beams_(own) {
+    if (!parameters.icp) return;
+    const std::vector<urban_nav_registration::LaserAt> lasers = urban_nav_registration::storedBeamSources(own, id);
+    if (lasers.empty()) return;
+    if (std::any_of(lasers.begin(), lasers.end(), [](const auto& laser) { return laser.is_lidar; }))
+      sources_ = BeamSources::Lidars;
+    scans_ = urban_nav_registration::storedScans(beams_, id, lasers);
     odometry_ = odometryChain(run);
-    search_ = std::make_unique<urban_nav_localization::CloudSearch>(parameters, map, frozen);
+    auto search = std::make_unique<urban_nav_localization::CloudSearch>(parameters, map, frozen);
+    if (search->places() > 0) search_ = std::move(search);
   }
 
-  void compareWith(urban_nav_localization::Localiser& localiser, LocalizationRun& made) {
-    const auto stretch = search_ ? search_->due(localiser) : std::nullopt;
+  bool arePossible() const { return search_ != nullptr; }
+
+  /// `alone`: no keyframes are compared, whose misses count otherwise.
+  void compareWith(urban_nav_localization::Localiser& localiser, bool alone, LocalizationRun& made) {
+    const auto stretch = search_ ? search_->due(localiser, sources_) : std::nullopt;
     if (!stretch) return;
     if (search_->read() == 0) readMap();
     ++made.cloud_looks;
-    made.cloud_sightings +=
+    const bool is_match =
         search_->query(*stretch, urban_nav_registration::localCloud(odometry_, stretch->at, stretch->way, scans_),
-                       urban_nav_registration::deformationSigma(odometry_, stretch->at, stretch->way), localiser)
-            ? 1
-            : 0;
+                       urban_nav_registration::deformationSigma(odometry_, stretch->at, stretch->way), localiser);
+    if (is_match) ++made.cloud_sightings;
+    else if (alone) search_->addMiss(*stretch, localiser);
   }
 
  private:
@@ -64,10 +74,80 @@ class CloudComparisons {
   }
 
   Console& console_;
+  const urban_nav_registration::BeamReader beams_;
+  BeamSources sources_ = BeamSources::PlanarLasers;
   urban_nav_core::OdometryChain odometry_;
   std::vector<urban_nav_registration::LaserScans> scans_;
   std::unique_ptr<urban_nav_localization::CloudSearch> search_;
 };
+
+/// Registers keyframes of a run to the map; does nothing without keyframes in both.
+class KeyframeComparisons {
+ public:
+  KeyframeComparisons(const urban_nav_localization::Parameters& parameters,
+                      const urban_nav_localization::FrozenMap& map, Store& frozen, Store& own,
+                      const urban_nav_store::SessionId& id, const SessionOdometry& run, Console& console)
+      : own_(own), id_(id), stamps_(own.keyframes().stamps(id, urban_nav_core::frames::kStereoLeft)) {
+    if (stamps_.empty() || !map.hasKeyframes()) return;
+    search_ = std::make_unique<urban_nav_localization::MapSearch>(
+        parameters, map, frozen, urban_nav_registration::MountedCamera{run.camera, run.T_base_camera},
+        std::make_shared<fabmap_node::KeyframePlaces>());
+    Progress reading(console, "views of the map", "views", static_cast<std::int64_t>(search_->views()));
+    while (search_->readNext()) reading.update(static_cast<std::int64_t>(search_->read()));
+    reading.finish(static_cast<std::int64_t>(search_->views()));
+  }
+
+  bool arePossible() const { return search_ != nullptr; }
+  bool hasKeyframes() const { return !stamps_.empty(); }
+
+  void compareWith(urban_nav_localization::Localiser& localiser, StampNs stamp, LocalizationRun& made) {
+    if (!search_ || !std::binary_search(stamps_.begin(), stamps_.end(), stamp)) return;
+    const Clock::time_point begin = Clock::now();
+    ++made.looks;
+    if (const auto stored = own_.keyframes().get(id_, urban_nav_core::frames::kStereoLeft, stamp))
+      made.sightings += search_->query(urban_nav_registration::toKeyframe(*stored, ""), localiser) ? 1 : 0;
+    ms_.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+  }
+  double medianMs() const { return urban_nav_core::quantile(ms_, 0.5); }
+
+ private:
+  Store& own_;
+  const urban_nav_store::SessionId id_;
+  const std::vector<StampNs> stamps_;
+  std::unique_ptr<urban_nav_localization::MapSearch> search_;
+  std::vector<double> ms_;
+};
+
+/// Fills T_map_base. Frames before the first known one, and later unknown ones, are placed by odometry relative to the
+/// nearest known one.
+void placeAllFrames(const SessionOdometry& run, LocalizationRun& made) {
+  std::optional<Pose> T_map_odom;
+  for (std::size_t i = 0; i < made.frames.size() && !T_map_odom; ++i)
+    if (made.frames[i].state == LocalizationState::Localized)
+      T_map_odom = made.frames[i].T_map_base->pose * run.settled[i].T_odom_base.pose.inverse();
+  if (!T_map_odom) {
+    made.warnings.push_back("the session was not localised in the map: trajectory.tum follows odometry");
+    return;
+  }
+  for (std::size_t i = 0; i < made.frames.size(); ++i) {
+    if (made.frames[i].state == LocalizationState::Localized)
+      T_map_odom = made.frames[i].T_map_base->pose * run.settled[i].T_odom_base.pose.inverse();
+    made.T_map_base.append(run.settled[i].stamp, *T_map_odom * run.settled[i].T_odom_base.pose);
+  }
+}
+
+/// Warns where one of two kinds of comparison is impossible; throws UserError if both are.
+void explainMissing(const KeyframeComparisons& keyframes, const CloudComparisons& clouds, const Store& frozen,
+                    LocalizationRun& made) {
+  if (keyframes.arePossible()) return;
+  const std::string reason = keyframes.hasKeyframes() ? "the map " + frozen.path() + " has no keyframes"
+                                                      : "the session has no stereo images";
+  if (!clouds.arePossible())
+    throw urban_nav_core::UserError(
+        "--localise", reason + ", and the two have no scans or sweeps of lasers in common",
+        "a map and a session with stereo images in both, or with lasers in both (stage lasers)");
+  made.warnings.push_back("localised by the clouds of lasers alone: " + reason);
+}
 
 }  // namespace
 
@@ -75,28 +155,19 @@ LocalizationRun runLocalization(const urban_nav_localization::Parameters& parame
                                 const urban_nav_store::SessionId& id, const SessionOdometry& run, Console& console) {
   LocalizationRun made;
   const urban_nav_localization::FrozenMap map(frozen);
-  urban_nav_localization::MapSearch search(parameters, map, frozen, {run.camera, run.T_base_camera},
-                                           std::make_shared<fabmap_node::KeyframePlaces>());
-  Progress reading(console, "views of the map", "views", static_cast<std::int64_t>(search.views()));
-  while (search.readNext()) reading.update(static_cast<std::int64_t>(search.read()));
-  reading.finish(static_cast<std::int64_t>(search.views()));
-  urban_nav_localization::Localiser localiser(parameters);
+  KeyframeComparisons keyframes(parameters, map, frozen, own, id, run, console);
   CloudComparisons clouds(parameters, map, frozen, own, id, run, console);
-  const std::vector<StampNs> views = own.keyframes().stamps(id, urban_nav_core::frames::kStereoLeft);
+  explainMissing(keyframes, clouds, frozen, made);
+  urban_nav_localization::Localiser localiser(parameters);
   Progress progress(console, "localise", "frames", static_cast<std::int64_t>(run.settled.size()));
-  std::vector<double> ms;
   std::size_t known = 0;
   for (std::size_t i = 0; i < run.settled.size(); ++i) {
     const SmoothedFrame& frame = run.settled[i];
-    if (i > 0) localiser.addOdometry(frame.from_previous);
-    if (i > 0 && std::binary_search(views.begin(), views.end(), frame.stamp)) {
-      const Clock::time_point begin = Clock::now();
-      ++made.looks;
-      if (const auto stored = own.keyframes().get(id, urban_nav_core::frames::kStereoLeft, frame.stamp))
-        made.sightings += search.query(urban_nav_registration::toKeyframe(*stored, ""), localiser) ? 1 : 0;
-      ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+    if (i > 0) {
+      localiser.addOdometry(frame.from_previous);
+      keyframes.compareWith(localiser, frame.stamp, made);
     }
-    clouds.compareWith(localiser, made);
+    clouds.compareWith(localiser, !keyframes.arePossible(), made);
     LocalizationEstimate located = localiser.at(frame.stamp);
     located.stamp = frame.stamp;
     if (located.state == LocalizationState::Localized) {
@@ -109,22 +180,8 @@ LocalizationRun runLocalization(const urban_nav_localization::Parameters& parame
   }
   progress.finish(static_cast<std::int64_t>(run.settled.size()));
   made.known_share = made.frames.empty() ? 0.0 : static_cast<double>(known) / static_cast<double>(made.frames.size());
-  made.ms_median = urban_nav_core::quantile(ms, 0.5);
-  // Frames before the first known one, and later unknown ones, are placed by odometry relative to the nearest known
-  // one.
-  std::optional<Pose> T_map_odom;
-  for (std::size_t i = 0; i < made.frames.size() && !T_map_odom; ++i)
-    if (made.frames[i].state == LocalizationState::Localized)
-      T_map_odom = made.frames[i].T_map_base->pose * run.settled[i].T_odom_base.pose.inverse();
-  if (!T_map_odom) {
-    made.warnings.push_back("the session was not localised in the map: trajectory.tum follows odometry");
-    return made;
-  }
-  for (std::size_t i = 0; i < made.frames.size(); ++i) {
-    if (made.frames[i].state == LocalizationState::Localized)
-      T_map_odom = made.frames[i].T_map_base->pose * run.settled[i].T_odom_base.pose.inverse();
-    made.T_map_base.append(run.settled[i].stamp, *T_map_odom * run.settled[i].T_odom_base.pose);
-  }
+  made.ms_median = keyframes.medianMs();
+  placeAllFrames(run, made);
   return made;
 }
 

@@ -29,7 +29,8 @@ struct LocalizationRun {
 
 /// Registers the keyframes of the run in `own` to those of the map of the first session of `frozen`: near the estimated
 /// pose if there is one, else all. After some metres without a match, registers local clouds instead, if both stores
-/// have scans. Throws UserError if the map has no keyframes, or those of another camera.
+/// have scans or sweeps; without keyframes in both, only these. Throws UserError if the two have nothing in common,
+/// DataError if the keyframes of the map are of an unknown camera.
 LocalizationRun runLocalization(const urban_nav_localization::Parameters& parameters, urban_nav_store::Store& frozen,
                                 urban_nav_store::Store& own, const urban_nav_store::SessionId& id,
                                 const SessionOdometry& run, Console& console);

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "topics/loops/cloud_candidates.hpp"
 
+#include <utility>
+
 #include "map/map_division.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
-#include "urban_nav_registration/retrieval/cloud_descriptor.hpp"
+#include "urban_nav_registration/retrieval/similar_places.hpp"
 
 namespace urban_nav {
 
-using urban_nav_registration::CloudDescriptor;
-using urban_nav_registration::DescribedPlace;
+using urban_nav_registration::CloudPlaces;
+using urban_nav_registration::PlaceDescription;
 
 namespace {
-
-constexpr double kSpacing = 3.0;           // m of path between places: half the width of a street lane and more
-constexpr double kHalfLength = 2.0;        // m of path before and after a place, whose sweeps describe it
-constexpr double kApartOnPath = 20.0;      // m of path between two places of a session that may be one
-constexpr double kLeastSimilarity = 0.65;  // the transform decides; below it hardly any can be measured
 
 /// Place of a session at which the surroundings are described.
 struct CloudPlace {
@@ -37,7 +34,7 @@ std::vector<CloudPlace> listPlaces(const MapContext& context, const std::vector<
     for (const SmoothedFrame& frame : runs[s]->settled) {
       const double distance = odometry.distance(frame.stamp);
       if (distance < next) continue;
-      next = distance + kSpacing;
+      next = distance + CloudPlaces::kSpacing;
       places.push_back({{context.names[s], frame.stamp}, s, distance, is_known});
     }
   }
@@ -46,24 +43,24 @@ std::vector<CloudPlace> listPlaces(const MapContext& context, const std::vector<
 
 void proposeInGroup(const std::vector<CloudPlace>& places, const CandidateMeasurer& measurer,
                     std::vector<urban_nav_core::TopologicalClosure>& proposed) {
-  std::vector<std::optional<CloudDescriptor>> descriptors(places.size());
+  std::vector<std::optional<PlaceDescription>> descriptions(places.size());
   constexpr std::size_t kRun = 16;  // places that share readers of the store
   urban_nav_core::forEach((places.size() + kRun - 1) / kRun, 1, [&](std::size_t run) {
     const SeveralStores stores(measurer.stores);
     const loop_metric::StoredPlaceData data(measurer.sessions, stores.keyframes(), stores.scans());
     for (std::size_t i = run * kRun; i < std::min(places.size(), (run + 1) * kRun); ++i)
-      descriptors[i] = CloudDescriptor::describe(data.cloud(places[i].at, kHalfLength));
+      descriptions[i] = urban_nav_registration::describePlace(data.cloud(places[i].at, CloudPlaces::kHalfLength),
+                                                              measurer.parameters.registration.voxel_size);
   });
-  std::vector<DescribedPlace> described;
-  std::vector<std::size_t> numbers;
+  urban_nav_registration::SimilarPlaceFinder finder;
+  std::vector<std::size_t> numbers;  // of the described places
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (!descriptors[i]) continue;
-    described.push_back({*descriptors[i], places[i].session, places[i].distance, places[i].is_known});
+    if (!descriptions[i]) continue;
     numbers.push_back(i);
+    for (const urban_nav_registration::SimilarPlaces& pair :
+         finder.add({std::move(*descriptions[i]), places[i].session, places[i].distance, places[i].is_known}))
+      proposed.push_back({places[numbers[pair.earlier]].at, places[i].at, pair.similarity});
   }
-  for (const urban_nav_registration::SimilarPlaces& pair :
-       urban_nav_registration::findSimilarPlaces(described, kLeastSimilarity, kApartOnPath))
-    proposed.push_back({places[numbers[pair.earlier]].at, places[numbers[pair.later]].at, pair.similarity});
 }
 
 }  // namespace

@@ -19,6 +19,8 @@
 #include "topics/labels/label_score.hpp"
 #include "topics/labels/labels.hpp"
 #include "topics/vo/vo.hpp"
+#include "urban_nav_core/io/cloud/cloud_columns.hpp"
+#include "urban_nav_core/io/cloud/las_writer.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/testing/folders.hpp"
@@ -87,6 +89,96 @@ TEST_F(Labels, AreFoundInAnotherSceneWhateverItsLabels) {
     right += table.integer(i, 1) == (i % 2 == 0 ? 2 : 8) ? 1 : 0;
   }
   EXPECT_GT(right, 2800);
+}
+
+/// Columns of the labels of scene c in a folder, as CSV, PLY or LAS.
+urban_nav_core::NumberColumns readLabelColumns(const std::string& base) {
+  return urban_nav_core::readCloudColumns(base, {"label", "unsure", "x", "y", "z", "label_probability"});
+}
+
+TEST_F(Labels, AreTheSameInAllFormats) {
+  writeScene("train", "a", 1);
+  writeScene("train", "b", 2);
+  writeScene("find", "c", 3);
+  writeClasses();
+  ASSERT_EQ(train("m", {path("train")}), 0);
+  ASSERT_EQ(labels({"apply", path("m"), path("find"), "-o", path("out")}), 0);
+  const auto table = urban_nav_core::CsvTable::read(path("out/c_labels.csv"));
+  const auto points = urban_nav_core::readCloudColumns(path("find/c_points.csv"), {"x", "y", "z"});
+  for (const char* file : {"out/c_labels.ply", "out/c_labels.las"}) {
+    const auto columns = readLabelColumns(path(file));
+    ASSERT_EQ(columns[0].value().size(), table.rows()) << file;
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+      ASSERT_EQ((*columns[0])[i], table.number(i, 1)) << file;
+      ASSERT_EQ((*columns[1])[i], table.number(i, 5)) << file;
+      ASSERT_NEAR((*columns[5])[i], table.number(i, 2), 1e-5) << file;
+      for (std::size_t axis = 0; axis < 3; ++axis) ASSERT_NEAR((*columns[2 + axis])[i], (*points[axis])[i], 1e-4);
+    }
+  }
+  const auto codes = urban_nav_core::readCloudColumns(path("out/c_labels.las"), {"classification"})[0].value();
+  for (std::size_t i = 0; i < table.rows(); ++i) ASSERT_EQ(codes[i], table.integer(i, 1) == 2 ? 11.0 : 6.0);
+  ASSERT_EQ(labels({"apply", path("m"), path("find"), "-o", path("one"), "--formats", "las"}), 0);
+  EXPECT_FALSE(std::filesystem::exists(path("one/c_labels.csv")));
+  EXPECT_EQ(urban_nav_input::testing::readFile(path("one/c_labels.las")),
+            urban_nav_input::testing::readFile(path("out/c_labels.las")));
+  EXPECT_EQ(labels({"apply", path("m"), path("find"), "-o", path("one"), "--formats", "csv,laz"}), 2);
+}
+
+/// Writes the points of a scene and their labels as LAS, with the label as classification or as attribute.
+void writeLas(const std::string& csv, const std::string& path, bool has_attribute, const Eigen::Vector3d& shift) {
+  const auto columns = urban_nav_core::readCloudColumns(csv, {"x", "y", "z", "label"});
+  std::vector<urban_nav_core::LasAttribute> attributes;
+  if (has_attribute) attributes.push_back({"label", urban_nav_core::LasAttribute::Type::UChar, ""});
+  urban_nav_core::LasWriter writer(path, attributes, "");
+  for (std::size_t i = 0; i < columns[0]->size(); ++i) {
+    urban_nav_core::LasPoint point;
+    point.p = Eigen::Vector3d((*columns[0])[i], (*columns[1])[i], (*columns[2])[i]) + shift;
+    const auto label = static_cast<std::uint8_t>((*columns[3])[i]);
+    if (!has_attribute) point.classification = label;
+    writer.append(point, has_attribute ? std::string(1, static_cast<char>(label)) : "");
+  }
+  writer.commit();
+}
+
+TEST_F(Labels, LasScenesFarFromTheOriginAreTrainedOnAndLabelledLikeOthers) {
+  writeScene("train", "a", 1);
+  writeScene("train", "b", 2);
+  writeScene("find", "c", 3);
+  writeClasses();
+  std::filesystem::create_directories(path("las"));
+  const Eigen::Vector3d utm(456'000.0, 5'428'000.0, 110.0);
+  writeLas(path("train/a_points.csv"), path("las/a.las"), true, utm);
+  writeLas(path("train/b_points.csv"), path("las/b.las"), false, utm);
+  ASSERT_EQ(train("m", {path("las")}), 0);
+  writeLas(path("find/c_points.csv"), path("c.las"), false, utm);
+  ASSERT_EQ(labels({"apply", path("m"), path("c.las"), "-o", path("out")}), 0);
+  const auto found = readLabelColumns(path("out/c_labels.las")), in_ply = readLabelColumns(path("out/c_labels.ply"));
+  int right = 0;
+  for (std::size_t i = 0; i < 3000; ++i) {
+    right += (*found[0])[i] == (i % 2 == 0 ? 2 : 8) ? 1 : 0;
+    ASSERT_NEAR((*found[3])[i], (*in_ply[3])[i], 1e-4) << "northing";
+    ASSERT_GT((*found[3])[i], 5'427'999.0);
+  }
+  EXPECT_GT(right, 2800);
+}
+
+TEST_F(Labels, ClassificationsOfLasAreNoNumbersOfClasses) {
+  writeScene("train", "a", 1);
+  writeScene("train", "b", 2);
+  writeClasses();
+  writeLas(path("train/a_points.csv"), path("a.las"), false, Eigen::Vector3d::Zero());
+  ASSERT_EQ(train("m", {path("train")}), 0);
+  EXPECT_EQ(labels({"evaluate", path("m"), path("a.las")}), 2);
+  EXPECT_EQ(labels({"evaluate", path("m"), path("a.las"), "--classes", path("classes.csv")}), 0);
+}
+
+TEST_F(Labels, OfPublicDataSetsAreGivenByName) {
+  writeScene("train", "a", 1);
+  writeScene("train", "b", 2);
+  EXPECT_EQ(labels({"train", path("train"), "-o", path("m"), "--classes", "semantickitti"}), 0);  // 20: a vehicle
+  EXPECT_EQ(labels({"evaluate", path("m"), path("train"), "--classes", "semantickitti"}), 0);
+  EXPECT_EQ(labels({"evaluate", path("m"), path("train"), "--classes", "nuscenes"}), 0);  // 20 and 30 exist
+  EXPECT_EQ(labels({"evaluate", path("m"), path("train"), "--classes", "semantic-kitti"}), 2);
 }
 
 TEST_F(Labels, TrainingGivesTheSameBytesForAnyOrderOfSourcesAndThreads) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -94,11 +95,12 @@ void OneSystemTest::expectTheWallInEveryFile() {
     const cv::Point cell(static_cast<int>(std::lround((wall.x() - world[4]) / world[0])),
                          static_cast<int>(std::lround((wall.y() - world[5]) / world[3])));
     EXPECT_TRUE(around(grid, cell, [&](cv::Point p) { return grid.at<std::uint8_t>(p) == 0; })) << "grid at " << x;
-    const cv::Point flat = heights.at(ground.x(), ground.y());
-    ASSERT_GE(flat.x, 0);
-    EXPECT_NEAR(heights.image.at<float>(flat), 99.0, 0.02);
-    EXPECT_NEAR(slopes.image.at<float>(flat), 0.0, 0.5);
-    EXPECT_GT(easy.image.at<float>(flat), 0.9);
+    const auto isFlat = [&](cv::Point p) {  // no beam ends in some of the cells
+      const float height = heights.image.at<float>(p);
+      return std::abs(height - 99.0F) < 0.02F && slopes.image.at<float>(p) < 0.5F &&
+             slopes.image.at<float>(p) >= 0.0F && easy.image.at<float>(p) > 0.9F;
+    };
+    EXPECT_TRUE(around(heights.image, heights.at(ground.x(), ground.y()), isFlat)) << x;
     double nearest_las = 1e9, nearest_mesh = 1e9;
     for (const Eigen::Vector3f& p : las.cloud.points)
       nearest_las = std::min(nearest_las, (p.cast<double>() + las.offset - wall).norm());
@@ -120,7 +122,7 @@ TEST_F(OneSystemTest, FixesPlaceEveryFile) {
   double x = 0.0, y = 0.0, yaw = 0.0;
   ASSERT_EQ(std::sscanf(yaml.substr(yaml.find('[')).c_str(), "[%lf, %lf, %lf]", &x, &y, &yaw), 3) << yaml;
   const double convergence = 1.75 * std::sin(51.75 * M_PI / 180.0) * M_PI / 180.0;  // the meridian is at 3 deg W
-  EXPECT_NEAR(yaw, -M_PI / 2.0 + convergence, 2e-3) << "east of the grid in map";
+  EXPECT_NEAR(yaw, -M_PI / 2.0 - convergence, 2e-3) << "east of the grid in map";
 }
 
 TEST_F(OneSystemTest, SurveyedPointsPlaceEveryFile) {
@@ -158,8 +160,11 @@ TEST_F(OneSystemTest, WithoutSystemEveryFileIsInTheFrameMap) {
   const ReadGeoTiff photo = readGeoTiff(paths_.geotiff), heights = readGeoTiff(paths_.elevation);
   EXPECT_EQ(photo.epsg, 0);
   EXPECT_EQ(photo.image.at<cv::Vec4b>(photo.at(4.0, 4.0 + 0.4))[3], 0) << "beyond the wall";
-  EXPECT_NEAR(heights.image.at<float>(heights.at(4.05, 2.55)), 0.0, 0.02);
-  EXPECT_NEAR(heights.image.at<float>(heights.at(4.05, 3.95)), 1.45, 0.1) << "the wall, up to the robot's height";
+  EXPECT_NEAR(heights.image.at<float>(heights.at(4.05, 1.15)), 0.0, 0.02);
+  EXPECT_NEAR(
+      std::max(heights.image.at<float>(heights.at(4.05, 3.95)), heights.image.at<float>(heights.at(4.05, 4.05))), 1.45,
+      0.1)
+      << "the wall, up to the robot's height";
   for (const char* name : {"m.json", "o.prj", "g.prj", "g.pgw"})
     EXPECT_FALSE(std::filesystem::exists(folder_.file(name))) << name;
   EXPECT_EQ(urban_nav_input::testing::readFile(paths_.octomap).substr(0, 29), "# Octomap OcTree binary file\n");

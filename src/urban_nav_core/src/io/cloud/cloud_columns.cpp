@@ -66,6 +66,7 @@ NumberColumns parseCloudColumns(std::string_view content, const std::string& nam
     plain = cloud_formats::gunzip(content, name);
     content = plain;
   }
+  if (content.substr(0, 4) == "LASF") return cloud_formats::parseLasColumns(content, name, wanted);
   const std::string text = cloud_formats::decodeContent(content);
   if (!text.empty()) content = text;
   if (content.substr(0, 4) == "ply\n" || content.substr(0, 4) == "ply\r")

@@ -25,6 +25,9 @@ NumberColumns parsePlyColumns(std::string_view content, const std::string& name,
                               const std::vector<std::string>& wanted);
 Vertices parsePcd(std::string_view content, const std::string& name);
 Vertices parseLas(std::string_view content, const std::string& name);
+/// Returns x, y, z, `intensity`, `classification` and attributes ("extra bytes") by their names.
+NumberColumns parseLasColumns(std::string_view content, const std::string& name,
+                              const std::vector<std::string>& wanted);
 Vertices parsePoints(std::string_view content, const std::string& name);  // CSV and similar text formats
 
 bool isGzip(std::string_view content);

@@ -22,6 +22,7 @@ enum class Role {
   LaserRight,
   Truth,
   Gps,
+  Scan,
   Points0,
   Points1,
   Points2,
@@ -67,9 +68,14 @@ struct BagTopics {
 /// "right" (or cam0 and cam1, image_0 and image_1, infra1 and infra2), else the only two image topics, in the order of
 /// their names. A panoramic head has at least two image topics whose names contain "ladybug" or "panorama", and
 /// "camera" or "cam" with a number. 3D LiDARs are the topics of clouds whose names are not those of computed clouds (a
-/// map, clusters, depth images), in the order of their names. Throws UserError for an unknown role in `wishes`, or a
-/// topic that is missing or of another type. Roles without a suitable topic are absent.
+/// map, clusters, depth images), in the order of their names. A wish `preset:=NAME` takes the topics of a driver
+/// (driver_presets.hpp) for the roles that no other wish names. Throws UserError for an unknown role or preset in
+/// `wishes`, or a topic that is missing or of another type. Roles without a suitable topic are absent.
 BagTopics chooseTopics(const std::map<std::string, std::string>& available, const std::vector<std::string>& wishes);
+
+/// Guesses the topic of a horizontal planar laser among those without a role, unless it has one: "scan", else the first
+/// topic of scans whose name is not that of computed ones (from depth images).
+void guessScan(const std::map<std::string, std::string>& available, BagTopics& topics);
 
 bool isImageType(const std::string& type);
 /// Returns whether messages of a type hold sweeps of 3D LiDARs: PointCloud2, or the CustomMsg of Livox.

@@ -26,7 +26,7 @@ struct PointsOptions {
 
 /// Options of the user for inputs.
 struct SourceOptions {
-  std::vector<std::string> topics;                ///< ROLE:=NAME, for bags
+  std::vector<std::string> topics;                ///< ROLE:=NAME or preset:=NAME, for bags
   std::string calibration;                        ///< file for bags and KITTI folders; empty: that of the input
   double rate = 0.0;                              ///< Hz of an image folder without stamps; 0: 10 Hz
   std::string motion_input = "none";              ///< as input.motion_input
@@ -36,10 +36,14 @@ struct SourceOptions {
   double baseline_scale = 1.0;                    ///< as input.baseline_scale
   std::vector<std::string> read_elsewhere = {};   ///< topics of bags that are not reported as unused
   urban_nav_ros::SensorCorrections sensors = {};  ///< as input.imu_delay and so on
-  std::vector<std::string> transforms = {};       ///< PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW, overriding tf
+  std::vector<std::string> transforms = {};       ///< PARENT,CHILD:X,Y,Z,QX,QY,QZ,QW, overriding tf; with a leading
+                                                  ///< `?`: used if tf has none (giveTransforms())
   PointsOptions points = {};
   /// Whether sweeps of 3D LiDARs are read. If so, a session without images but with sweeps is accepted.
   bool with_sweeps = false;
+  /// Whether the scans of a horizontal planar laser are also read as sweeps if there are images. Without images and
+  /// without clouds of a 3D LiDAR they are, if sweeps are.
+  bool with_planar_sweeps = false;
   SessionRule sessions = SessionRule::Auto;  ///< as input.sessions
 };
 /// Format of an input.

@@ -29,11 +29,12 @@ struct LaserInput {
   urban_nav_core::Scan scan;
 };
 
-/// A sweep of one of the 3D LiDARs of the robot.
+/// A sweep of one of the 3D LiDARs of the robot, or a scan of a horizontal planar laser that is read as a sweep.
 struct SweepInput {
-  std::string role;  ///< "points0"
+  std::string role;  ///< "points0", "scan"
   urban_nav_core::Pose T_base_lidar;
   urban_nav_core::Sweep sweep;
+  bool is_planar = false;  ///< of a planar laser; the scan is also among the scans
 };
 
 /// State of the reader of a recording at the end of a bag, which the next bag may follow.
@@ -104,8 +105,9 @@ struct SourceInfo {
   std::int64_t frames = 0;                      ///< expected stereo frames, or sweeps without images; 0: unknown
   urban_nav_core::StampNs first = 0, last = 0;  ///< of these frames, if known
   std::vector<LaserInfo> lasers;                ///< with known extrinsics
-  std::vector<PanoramaCamera> panorama;         ///< cameras with images, ascending by number; empty: no panoramas
-  std::vector<InputStream> inputs;              ///< by role
+  std::string planar_role;  ///< role of the horizontal planar laser whose scans are also sweeps; empty: none
+  std::vector<PanoramaCamera> panorama;  ///< cameras with images, ascending by number; empty: no panoramas
+  std::vector<InputStream> inputs;       ///< by role
   std::vector<std::pair<std::string, std::string>> topics = {};  ///< role and topic of the stereo camera; of recordings
   std::optional<urban_nav_core::StampNs> right_delay = {};       ///< ns, as input.right_delay; of recordings
   std::vector<std::string> notes;                                ///< guesses and assumptions, for the user

@@ -33,22 +33,4 @@ class CloudDescriptor {
   Column profile_{};  // mean over the directions, m
 };
 
-/// Descriptor of one of several places, in the order of their times.
-struct DescribedPlace {
-  CloudDescriptor descriptor;
-  std::size_t session = 0;
-  double distance = 0.0;  ///< travelled in the session, m
-  bool is_known = false;  ///< found by later places, but not compared with earlier ones
-};
-
-/// A place and the most similar earlier one.
-struct SimilarPlaces {
-  std::size_t earlier = 0, later = 0;  ///< indices
-  double similarity = 0.0;
-};
-
-/// Returns, for each place that is not known, the most similar of those before it, unless it is below `least` or within
-/// `apart` (m) of path in the same session.
-std::vector<SimilarPlaces> findSimilarPlaces(const std::vector<DescribedPlace>& places, double least, double apart);
-
 }  // namespace urban_nav_registration

@@ -15,6 +15,7 @@ struct LaserAt {
   std::string frame;  ///< frame of its stored scans
   urban_nav_core::Pose T_base_laser;
   urban_nav_core::StampNs delay = 0;  ///< delay of its stamps
+  bool is_lidar = false;              ///< a 3D LiDAR, whose stored scans are the rings of its sweeps
 };
 
 /// Returns the lasers of a session that have scans and extrinsics in the store, with the stated extrinsics.

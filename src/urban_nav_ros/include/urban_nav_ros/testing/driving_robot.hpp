@@ -76,7 +76,7 @@ class DrivingRobot : public StereoListener {
     for (int i = from; i < to; ++i) {
       const bool steps = i > 0 && i != lost;
       if (images) show(i);
-      EXPECT_TRUE(receipts().await({{"vo/odometry", 1}, {"vo/relative_pose", steps ? 1 : 0}}, [&] {
+      EXPECT_TRUE(receipts().await({{"odometry", 1}, {"odometry/relative_pose", steps ? 1 : 0}}, [&] {
         beAt(toStamp(i), T_world_base(0).inverse() * T_world_base(i));
         if (steps) step(toStamp(i - 1), toStamp(i), T_world_base(i - 1).inverse() * T_world_base(i), 1e-3);
       })) << "odometry of frame "
@@ -112,8 +112,8 @@ class DrivingRobot : public StereoListener {
   }
 
  private:
-  ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("vo/odometry");
-  ros::Publisher relative_ = advertise<urban_nav_msgs::RelativePose>("vo/relative_pose");
+  ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("odometry");
+  ros::Publisher relative_ = advertise<urban_nav_msgs::RelativePose>("odometry/relative_pose");
   urban_nav_core::testing::RenderedSequence sequence_;
   int session_ = 0;
   bool connected_ = false;
