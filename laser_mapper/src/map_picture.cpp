@@ -57,6 +57,8 @@ Box boxAround(const std::vector<Vector3d>& path) {
   return box;
 }
 
+std::uint8_t toByte(float value) { return static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L)); }
+
 /// Lighting from above and from the side, so that walls of different directions differ.
 float lightOn(const MapPoint& point) {
   if (point.normal.squaredNorm() < 0.5F) return 0.8F;
@@ -202,7 +204,8 @@ PictureBox MapPicture::shownBox() const {
   return {u.first, v.first, u.last - u.first + 1, v.last - v.first + 1};
 }
 
-urban_nav_registration::Picture MapPicture::finish(const PictureBox& box) const {
+/// Returns the shaded pixels; depth is 0 where nothing was drawn.
+std::vector<MapPicture::Pixel> MapPicture::finishedPixels() const {
   std::vector<Pixel> pixels = pixels_;
   for (int v = 1; v + 1 < view_.height; ++v)  // fills a pixel between two others
     for (int u = 1; u + 1 < view_.width; ++u) {
@@ -217,21 +220,41 @@ urban_nav_registration::Picture MapPicture::finish(const PictureBox& box) const 
         }
     }
   shadeEdges(pixels);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    if (path_[i] != 0) pixels[i] = {1.0F, kPathBlue, kPathGreen, kPathRed};
+    else if (pixels[i].depth == 0.0F) pixels[i] = {0.0F, kPaper, kPaper, kPaper};
+  }
+  return pixels;
+}
+
+urban_nav_registration::Picture MapPicture::finish(const PictureBox& box) const {
+  const std::vector<Pixel> pixels = finishedPixels();
   urban_nav_registration::Picture picture;
   picture.width = box.width;
   picture.height = box.height;
   picture.bgr.reserve(3 * static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height));
   for (int v = box.v0; v < box.v0 + box.height; ++v)
     for (int u = box.u0; u < box.u0 + box.width; ++u) {
-      const std::size_t i =
-          static_cast<std::size_t>(v) * static_cast<std::size_t>(view_.width) + static_cast<std::size_t>(u);
-      Pixel pixel = pixels[i];
-      if (path_[i] != 0) pixel = {1.0F, kPathBlue, kPathGreen, kPathRed};
-      else if (pixel.depth == 0.0F) pixel = {0.0F, kPaper, kPaper, kPaper};
-      for (const float value : {pixel.blue, pixel.green, pixel.red})
-        picture.bgr.push_back(static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L)));
+      const Pixel& pixel =
+          pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(view_.width) + static_cast<std::size_t>(u)];
+      for (const float value : {pixel.blue, pixel.green, pixel.red}) picture.bgr.push_back(toByte(value));
     }
   return picture;
+}
+
+std::vector<std::uint8_t> MapPicture::finishRgba(const PictureBox& box) const {
+  const std::vector<Pixel> pixels = finishedPixels();
+  std::vector<std::uint8_t> rgba;
+  rgba.reserve(4 * static_cast<std::size_t>(box.width) * static_cast<std::size_t>(box.height));
+  for (int v = box.v0; v < box.v0 + box.height; ++v)
+    for (int u = box.u0; u < box.u0 + box.width; ++u) {
+      const Pixel& pixel =
+          pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(view_.width) + static_cast<std::size_t>(u)];
+      const bool is_drawn = pixel.depth != 0.0F;
+      for (const float value : {pixel.red, pixel.green, pixel.blue}) rgba.push_back(is_drawn ? toByte(value) : 0);
+      rgba.push_back(is_drawn ? 255 : 0);
+    }
+  return rgba;
 }
 
 }  // namespace laser_mapper

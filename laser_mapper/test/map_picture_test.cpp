@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace laser_mapper {
 namespace {
 
@@ -30,6 +32,21 @@ TEST(MapPicture, FromAboveNorthIsUpAndTheHighestPointIsShown) {
   const auto made = picture.finish();
   EXPECT_EQ(valueAt(made, 60, 60), 16) << "20, lit by 0.8";
   EXPECT_EQ(valueAt(made, 300, 300), 250) << "paper";
+}
+
+TEST(MapPicture, IsTransparentWhereNothingWasDrawn) {
+  MapPicture picture(viewFromAbove(kSquarePath, 5.0, 400));
+  MapPoint point = grey(-2.0F, 12.0F, 0.0F, 0);
+  point.red = 200;
+  point.green = 100;
+  picture.draw({point});
+  const std::vector<std::uint8_t> rgba = picture.finishRgba({50, 50, 20, 30});
+  ASSERT_EQ(rgba.size(), 4U * 20U * 30U);
+  for (std::size_t i = 0; i < 20U * 30U; ++i) {
+    const std::array<int, 4> found{rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2], rgba[4 * i + 3]};
+    const std::array<int, 4> expected = i == 10 * 20 + 10 ? std::array<int, 4>{160, 80, 0, 255} : std::array<int, 4>{};
+    EXPECT_EQ(found, expected) << i;
+  }
 }
 
 TEST(MapPicture, DoesNotDependOnTheOrderOfPoints) {

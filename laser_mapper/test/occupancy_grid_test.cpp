@@ -28,23 +28,28 @@ class OccupancyGridTest : public ::testing::Test {
       for (double z = 0.0; z < 2.0; z += 0.05) add(x, 3.0, groundAt(3.0) + z);
     for (double x = 4.5; x <= 5.5; x += 0.05) add(x, 1.0, groundAt(1.0) + 2.5);
   }
+  struct GridImage {
+    GroundGrid ground;
+    std::vector<std::uint8_t> image;
+  };
   void add(double x, double y, double z) {
     MapPoint point;
     point.p = Vector3d(x, y, z).cast<float>();
     points_.push_back(point);
   }
-  std::uint8_t at(const OccupancyGrid& grid, double x, double y) const {
-    const int u = static_cast<int>(std::floor((x - grid.x0()) / model_.resolution));
-    const int v = grid.height() - 1 - static_cast<int>(std::floor((y - grid.y0()) / model_.resolution));
-    return grid
-        .image()[static_cast<std::size_t>(v) * static_cast<std::size_t>(grid.width()) + static_cast<std::size_t>(u)];
+  std::uint8_t at(const GridImage& grid, double x, double y) const {
+    const int u = static_cast<int>(std::floor((x - grid.ground.x0()) / model_.resolution));
+    const int v = grid.ground.height() - 1 - static_cast<int>(std::floor((y - grid.ground.y0()) / model_.resolution));
+    return grid.image[static_cast<std::size_t>(v) * static_cast<std::size_t>(grid.ground.width()) +
+                      static_cast<std::size_t>(u)];
   }
-  OccupancyGrid made() const {
-    OccupancyGrid grid(model_, path_);
-    grid.addSurface(points_);
-    grid.findGround();
+  GridImage build() const {
+    GroundGrid ground(model_, path_);
+    ground.addSurface(points_);
+    ground.find();
+    OccupancyGrid grid(ground);
     grid.addBeams(points_, [](const MapPoint& point) { return Vector3d(static_cast<double>(point.p.x()), 0.0, 1.0); });
-    return grid;
+    return {ground, grid.image()};
   }
 
   const GridModel model_;
@@ -53,7 +58,7 @@ class OccupancyGridTest : public ::testing::Test {
 };
 
 TEST_F(OccupancyGridTest, ObstaclesAreMeasuredFromTheGroundAroundThem) {
-  const OccupancyGrid grid = made();
+  const GridImage grid = build();
   EXPECT_EQ(at(grid, 3.0, 3.02), 0) << "wall";
   EXPECT_EQ(at(grid, 8.0, -2.05), 0) << "kerb";
   EXPECT_EQ(at(grid, 8.0, -2.6), 254) << "on the pavement";
@@ -62,7 +67,7 @@ TEST_F(OccupancyGridTest, ObstaclesAreMeasuredFromTheGroundAroundThem) {
 }
 
 TEST_F(OccupancyGridTest, CellsThatNoBeamReachedAreUnknown) {
-  const OccupancyGrid grid = made();
+  const GridImage grid = build();
   EXPECT_EQ(at(grid, 8.0, 6.0), 254) << "passed";
   EXPECT_EQ(at(grid, 8.0, 9.5), 205);
   EXPECT_EQ(at(grid, 20.0, 0.0), 205);
@@ -72,17 +77,24 @@ TEST_F(OccupancyGridTest, WhereTheRobotDroveIsFree) {
   add(5.0, 0.0, 0.5);
   add(5.0, 0.0, 0.6);
   add(5.0, 0.0, 0.7);
-  const OccupancyGrid grid = made();
+  const GridImage grid = build();
   for (const Vector3d& p : path_) EXPECT_EQ(at(grid, p.x(), p.y()), 254);
 }
 
 TEST_F(OccupancyGridTest, MapServerReadsItsFiles) {
-  const OccupancyGrid grid = made();
-  EXPECT_EQ(printGridYaml(grid, model_, "map.pgm").substr(0, 32), "image: map.pgm\nresolution: 0.1\no");
-  const std::string pgm = printPgm(grid.image(), grid.width(), grid.height());
-  const std::string header = "P5\n" + std::to_string(grid.width()) + " " + std::to_string(grid.height()) + "\n255\n";
+  const GridImage grid = build();
+  EXPECT_EQ(printGridYaml(localPlacement(grid.ground), "map.pgm").substr(0, 32), "image: map.pgm\nresolution: 0.1\no");
+  const std::string pgm = printPgm(grid.image, grid.ground.width(), grid.ground.height());
+  const std::string header =
+      "P5\n" + std::to_string(grid.ground.width()) + " " + std::to_string(grid.ground.height()) + "\n255\n";
   EXPECT_EQ(pgm.substr(0, header.size()), header);
-  EXPECT_EQ(pgm.size(), header.size() + grid.image().size());
+  EXPECT_EQ(pgm.size(), header.size() + grid.image.size());
+}
+
+TEST(GridYaml, HasTheOriginWithItsYaw) {
+  EXPECT_EQ(printGridYaml({0.1, -30.0, 2.5, 0.25}, "m.pgm"),
+            "image: m.pgm\nresolution: 0.1\norigin: [-30, 2.5, 0.25]\nnegate: 0\noccupied_thresh: 0.65\n"
+            "free_thresh: 0.196\n");
 }
 
 }  // namespace

@@ -46,6 +46,9 @@ class MapPicture {
   /// Fills small gaps between points, and returns the picture or the part within a box.
   urban_nav_registration::Picture finish() const { return finish({0, 0, view_.width, view_.height}); }
   urban_nav_registration::Picture finish(const PictureBox& box) const;
+  /// Returns the same picture as red, green, blue and alpha in a byte each; alpha is 0 where nothing was drawn, else
+  /// 255.
+  std::vector<std::uint8_t> finishRgba(const PictureBox& box) const;
 
  private:
   struct Pixel {
@@ -55,6 +58,7 @@ class MapPicture {
   bool project(const urban_nav_core::Vector3d& p, double& u, double& v, double& depth) const;
   void put(int u, int v, const Pixel& pixel);
   void shadeEdges(std::vector<Pixel>& pixels) const;
+  std::vector<Pixel> finishedPixels() const;
 
   const MapView view_;
   const urban_nav_core::Matrix3d R_;

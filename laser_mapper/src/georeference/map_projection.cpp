@@ -66,6 +66,8 @@ MapProjection::MapProjection(int epsg, const std::string& option) : proj_(std::m
   const ProjObject raw(proj_create_crs_to_crs(context, "EPSG:4979", code.c_str(), nullptr));
   if (text == nullptr || !raw) throw UserError(option, code + " cannot be written as WKT", "another system");
   wkt_ = text;
+  const char* esri_text = proj_as_wkt(context, crs.get(), PJ_WKT1_ESRI, nullptr);
+  esri_wkt_ = esri_text == nullptr ? wkt_ : esri_text;
   name_ = proj_get_name(crs.get());
   proj_->transformation.reset(proj_normalize_for_visualization(context, raw.get()));
 }
@@ -79,6 +81,14 @@ Eigen::Vector3d MapProjection::project(const Geodetic& position) const {
   if (!std::isfinite(to.xyz.x) || !std::isfinite(to.xyz.y))
     throw urban_nav_core::DataError("--crs " + name_, "the map lies outside the area of this system", "auto");
   return {to.xyz.x, to.xyz.y, position.height};
+}
+
+Geodetic MapProjection::unproject(const Eigen::Vector3d& p) const {
+  const PJ_COORD from = proj_coord(p.x(), p.y(), p.z(), std::numeric_limits<double>::infinity());
+  const PJ_COORD to = proj_trans(proj_->transformation.get(), PJ_INV, from);
+  if (!std::isfinite(to.lpz.lam) || !std::isfinite(to.lpz.phi))
+    throw urban_nav_core::DataError("--crs " + name_, "a point lies outside the area of this system", "");
+  return {to.lpz.phi / kToDegrees, to.lpz.lam / kToDegrees, p.z()};
 }
 
 }  // namespace laser_mapper

@@ -25,14 +25,18 @@ class MapProjection {
 
   /// Returns easting, northing and ellipsoidal height, m. Throws DataError outside the area of the system.
   Eigen::Vector3d project(const Geodetic& position) const;
+  /// Returns the position of an easting, a northing and a height. Throws DataError outside the area of the system.
+  Geodetic unproject(const Eigen::Vector3d& p) const;
   /// Returns the system as well-known text of 2001, the format of LAS files.
   const std::string& wkt() const { return wkt_; }
+  /// Returns the system as the well-known text of ESRI, the format of .prj files.
+  const std::string& esriWkt() const { return esri_wkt_; }
   const std::string& name() const { return name_; }
 
  private:
   struct Proj;
   std::unique_ptr<Proj> proj_;
-  std::string wkt_, name_;
+  std::string wkt_, esri_wkt_, name_;
 };
 
 }  // namespace laser_mapper

@@ -211,7 +211,7 @@ EditRequest readAssertion(const Words& words, const PreviousSessions& sessions) 
 Eigen::Vector3d placeByFixes(Store& store, const std::vector<urban_nav_store::StoredTrajectory>& map,
                              const laser_mapper::Geodetic& position) {
   try {
-    return MapCrs("auto", store, map).toMap(position);
+    return MapCrs("auto", "", store, map).toMap(position);
   } catch (const urban_nav_core::DataError& error) {
     throw urban_nav_core::DataError("--geodetic", error.parts().found, "--at X,Y,Z: a place in the frame map");
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -7,6 +8,7 @@
 #include "base/console.hpp"
 #include "base/json.hpp"
 #include "base/parameters.hpp"
+#include "inspect/export_options.hpp"
 #include "inspect/geopackage/store_geopackage.hpp"
 #include "inspect/inspect.hpp"
 #include "inspect/numbered_path.hpp"
@@ -20,6 +22,7 @@
 #include "topics/lasers/map_export.hpp"
 #include "topics/places/place_export.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
+#include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/stored_ids.hpp"
 
@@ -39,13 +42,38 @@ MapFilePaths mapFilePaths(const Arguments& arguments, std::size_t number) {
   const auto path = [&](const char* option) {
     return arguments.has(option) ? numberedPath(arguments.get(option), number) : std::string();
   };
-  return {path("ply"),
-          path("pcd"),
-          path("las"),
-          path("grid"),
-          path("ortho"),
-          path("mesh"),
-          arguments.get("crs") == "local" ? "" : arguments.get("crs")};
+  MapFilePaths paths{path("ply"), path("pcd"), path("las"), path("grid"), path("ortho")};
+  paths.mesh = path("mesh");
+  paths.geotiff = path("geotiff");
+  paths.elevation = path("elevation");
+  paths.slope = path("slope");
+  paths.traversability = path("traversability");
+  paths.octomap = path("octomap");
+  paths.crs = arguments.get("crs") == "local" ? "" : arguments.get("crs");
+  paths.control = arguments.get("control");
+  return paths;
+}
+
+/// Throws UserError if an option is given and its file has another extension.
+void checkExtension(const Arguments& arguments, const std::string& option, const std::vector<std::string>& extensions) {
+  const std::string path = arguments.get(option);
+  if (path.empty()) return;
+  const std::string found = std::filesystem::path(path).extension().string();
+  if (std::find(extensions.begin(), extensions.end(), found) == extensions.end())
+    throw UserError("--" + option, path, "a name that ends in " + extensions.front());
+}
+
+void checkCrs(const Arguments& arguments) {
+  const std::string crs = arguments.get("crs");
+  if (arguments.has("crs") && crs != "local") parseCrs(crs);
+  const auto world_file = [&](const char* option) { return withExtension(arguments.get(option), ".pgw"); };
+  if (arguments.has("crs") && crs != "local" && arguments.has("ortho") && arguments.has("grid") &&
+      world_file("ortho") == world_file("grid"))
+    throw UserError("--ortho, --grid", "both would write " + world_file("grid"), "names that differ before the ending");
+  if (!arguments.has("control")) return;
+  if (!arguments.has("crs") || crs == "local" || crs == "auto")
+    throw UserError("--control", arguments.has("crs") ? "--crs " + crs : "no --crs",
+                    "--crs EPSG:N, the system of the surveyed points");
 }
 
 void checkFormats(const Arguments& arguments) {
@@ -53,25 +81,22 @@ void checkFormats(const Arguments& arguments) {
                    arguments.has("g2o") || arguments.has("places") || arguments.has("mcap") ||
                    arguments.has("results") || arguments.has("gpkg");
   if (!any)
-    throw UserError(
-        "urban_nav export", "no format is given",
-        "--tum, --kitti, --g2o, --ply, --pcd, --las, --grid, --ortho, --mesh, --gpkg or --mcap FILE, or --places "
-        "or --results DIR");
-  if (arguments.has("crs")) {
-    if (arguments.get("crs") != "local") parseCrs(arguments.get("crs"));
-    if (!arguments.has("las") && !arguments.has("gpkg"))
-      throw UserError("--crs", "no --las or --gpkg FILE", "--crs with --las or --gpkg, whose coordinates it sets");
-  }
+    throw UserError("urban_nav export", "no format is given",
+                    "--tum, --kitti, --g2o, --ply, --pcd, --las, --grid, --ortho, --geotiff, --elevation, --slope, "
+                    "--traversability, --octomap, --mesh, --gpkg or --mcap FILE, or --places or --results DIR");
+  checkCrs(arguments);
+  const MapFilePaths placed = mapFilePaths(arguments, 0);
+  if (arguments.has("crs") && !placed.areInCrs() && !arguments.has("gpkg"))
+    throw UserError("--crs", "no file whose coordinates it sets",
+                    "--crs with --las, --geotiff, --elevation, --slope, --traversability, --grid, --ortho, --mesh or "
+                    "--gpkg FILE");
   if (arguments.has("mcap")) checkResultPath(arguments.get("mcap"));
-  const std::string ortho = arguments.get("ortho");
-  if (!ortho.empty() && std::filesystem::path(ortho).extension() != ".png")
-    throw UserError("--ortho", ortho, "a name that ends in .png");
-  const std::string mesh = arguments.get("mesh");
-  if (!mesh.empty() && std::filesystem::path(mesh).extension() != ".ply")
-    throw UserError("--mesh", mesh, "a name that ends in .ply");
-  const std::string grid = arguments.get("grid");
-  if (!grid.empty() && std::filesystem::path(grid).extension() != ".yaml")
-    throw UserError("--grid", grid, "a name that ends in .yaml");
+  checkExtension(arguments, "ortho", {".png"});
+  checkExtension(arguments, "mesh", {".ply"});
+  checkExtension(arguments, "octomap", {".bt"});
+  checkExtension(arguments, "grid", {".yaml"});
+  for (const char* option : {"geotiff", "elevation", "slope", "traversability"})
+    checkExtension(arguments, option, {".tif", ".tiff"});
 }
 
 /// Written files, for the user and for --json.
@@ -97,11 +122,19 @@ class Written {
     console_.info(made.crs);
     Json reference = Json::object();
     reference["epsg"] = made.epsg;
-    reference["fixes"] = made.reference->fixes;
+    if (made.control.empty()) reference["fixes"] = made.reference->fixes;
     reference["residual_m_median"] = made.reference->residual;
     reference["position_sigma_m"] = made.reference->position_sigma;
     reference["height_sigma_m"] = made.reference->height_sigma;
     reference["heading_sigma_deg"] = made.reference->heading_sigma * 180.0 / M_PI;
+    if (!made.control.empty()) {
+      Json& control = reference["control"] = Json::array();
+      for (const MapCrs::ControlError& point : made.control) {
+        control.append(Json::object({{"name", point.name}, {"error_m", point.error}}));
+        console_.info("  " + point.name + ": " + urban_nav_core::formatNumber(point.error, 3) +
+                      " m from its surveyed position");
+      }
+    }
     json_["crs"] = std::move(reference);
   }
   const Json& json() const { return json_; }
@@ -162,6 +195,9 @@ int runExport(const Arguments& arguments, Console& console) {
   Store store = urban_nav_store::openForReading(arguments.get("STORE"), urban_nav_store::Access::Frozen);
   const Maps maps = readMaps(store, selectSessions(store, arguments.all("session")));
   if (maps.empty()) throw urban_nav_core::DataError(store.path(), "holds no session", "");
+  if (arguments.has("control") && maps.size() > 1)
+    throw UserError("--control", store.path() + " holds " + std::to_string(maps.size()) + " maps",
+                    "--session with the sessions of the map that the points are of");
   Written written(console);
   for (std::size_t i = 0; i < maps.size(); ++i) {
     if (arguments.has("tum"))
@@ -185,7 +221,7 @@ int runExport(const Arguments& arguments, Console& console) {
                    std::to_string(places.places) + " places, " + std::to_string(places.thumbnails) + " thumbnails");
   }
   if (arguments.has("gpkg")) {
-    writeGeoPackage(store, maps, arguments.get("gpkg"), arguments.get("crs"));
+    writeGeoPackage(store, maps, arguments.get("gpkg"), arguments.get("crs"), arguments.get("control"));
     written.note(arguments.get("gpkg"), "trajectories, closures, coverage and quality as layers");
   }
   if (arguments.has("results")) writeResults(store, maps, arguments, written);
@@ -197,70 +233,6 @@ int runExport(const Arguments& arguments, Console& console) {
   if (mapFilePaths(arguments, 0).any()) writeMaps(store, maps, arguments, written);
   if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), written.json().print());
   return 0;
-}
-
-}  // namespace
-
-namespace {
-
-std::vector<Option> exportOptions() {
-  return {
-      {"STORE", "", "session.db of a map; it is only read", true, false, {}},
-      {"--tum",
-       "FILE",
-       "base_link in map, a line per pose; maps that did not join go to FILE_2 and so on",
-       false,
-       false,
-       {}},
-      {"--kitti", "FILE", "the left camera relative to its first pose, a line per stereo frame", false, false, {}},
-      {"--g2o", "FILE", "the pose graph: all nodes, accepted edges", false, false, {}},
-      {"--ply", "FILE", "the map of laser points, identical to map.ply", false, false, {}},
-      {"--pcd", "FILE", "the map of laser points for PCL", false, false, {}},
-      {"--las", "FILE", "the map of laser points as LAS 1.4, point format 7", false, false, {}},
-      {"--gpkg",
-       "FILE",
-       "trajectories, closures, coverage and quality of all sessions as layers of a GeoPackage",
-       false,
-       false,
-       {}},
-      {"--crs",
-       "auto,EPSG:N,local",
-       "coordinate system of --las and --gpkg; needs GPS fixes (default: local, the frame map)",
-       false,
-       false,
-       {}},
-      {"--grid",
-       "FILE.yaml",
-       "obstacles and free space for map_server; the PGM is written next to it",
-       false,
-       false,
-       {}},
-      {"--ortho", "FILE.png", "the map from above; its world file is written next to it", false, false, {}},
-      {"--mesh", "FILE.ply", "the surface of the map as coloured triangles", false, false, {}},
-      {"--mcap",
-       "FILE.mcap",
-       "as map --mcap, for Foxglove; maps that did not join go to FILE_2 and so on",
-       false,
-       false,
-       {}},
-      {"--places",
-       "DIR",
-       "folder to write: places.csv with the pose of each place, their thumbnails, and the model of their words",
-       false,
-       false,
-       {}},
-      {"--results",
-       "DIR",
-       "folder to write: trajectories, covariances, closures.csv, graph.g2o and map.ply of all sessions, identical to "
-       "the output of map",
-       false,
-       false,
-       {}},
-      {"--session", "ID", "only sessions whose id or name begins with ID (default: all)", false, true, {}},
-      jsonOption(),
-      configOption(),
-      setOption(),
-      threadsOption()};
 }
 
 }  // namespace

@@ -195,6 +195,15 @@ TEST_F(StoreCommands, ExportRefusesByName) {
   EXPECT_EQ(call({"export", store, "--las", file("x.las"), "--crs", "auto"}), 1) << "no GPS";
   EXPECT_EQ(call({"export", store, "--ortho", file("x.jpg")}), 2);
   EXPECT_EQ(call({"export", store, "--grid", file("x.pgm")}), 2);
+  EXPECT_EQ(call({"export", store, "--elevation", file("x.png")}), 2);
+  EXPECT_EQ(call({"export", store, "--octomap", file("x.ot")}), 2);
+  EXPECT_EQ(call({"export", store, "--geotiff", file("x.tif")}), 1) << "no lasers";
+  EXPECT_EQ(call({"export", store, "--ply", file("x.ply"), "--crs", "auto"}), 2) << "PLY is in the frame map";
+  EXPECT_EQ(call({"export", store, "--las", file("x.las"), "--crs", "UTM"}), 2);
+  EXPECT_EQ(call({"export", store, "--las", file("x.las"), "--control", file("c.csv")}), 2) << "no system";
+  EXPECT_EQ(call({"export", store, "--ortho", file("m.png"), "--grid", file("m.yaml"), "--crs", "auto"}), 2)
+      << "one world file for two";
+  EXPECT_EQ(call({"export", store, "--las", file("x.las"), "--control", file("c.csv"), "--crs", "auto"}), 2);
   EXPECT_EQ(call({"export", store, "--tum", file("x.tum"), "--session", "unknown"}), 2);
   EXPECT_EQ(call({"export", file("in16/times.txt"), "--tum", file("x.tum")}), 2);
   EXPECT_EQ(call({"export", file("nothing.db"), "--tum", file("x.tum")}), 2);

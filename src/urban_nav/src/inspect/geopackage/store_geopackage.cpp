@@ -201,13 +201,14 @@ std::string isoTime(StampNs stamp) {
 
 }  // namespace
 
-void writeGeoPackage(Store& store, const Maps& maps, const std::string& path, const std::string& crs) {
+void writeGeoPackage(Store& store, const Maps& maps, const std::string& path, const std::string& crs,
+                     const std::string& control) {
   std::vector<std::shared_ptr<MapCrs>> of_maps(maps.size());
   LayerCrs layer_crs;
   if (!crs.empty() && crs != "local")
     for (std::size_t m = 0; m < maps.size(); ++m) {
       const std::string wanted = m == 0 ? crs : "EPSG:" + std::to_string(layer_crs.epsg);
-      of_maps[m] = std::make_shared<MapCrs>(wanted, store, maps[m]);
+      of_maps[m] = std::make_shared<MapCrs>(wanted, control, store, maps[m]);
       if (m == 0) layer_crs = {of_maps[m]->epsg(), of_maps[m]->wkt()};
     }
   const std::vector<DrawnSession> sessions = drawnSessions(store, maps, of_maps);

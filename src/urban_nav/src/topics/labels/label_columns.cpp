@@ -20,9 +20,9 @@ urban_nav_core::PlyLayout labelLayout() {
 
 std::uint8_t lasClassification(SceneClass label) {
   switch (label) {
-    case SceneClass::Paved: return 11;    // road surface
-    case SceneClass::Grass: return 3;     // low vegetation
-    case SceneClass::DirtPath: return 2;  // ground
+    case SceneClass::Paved:
+    case SceneClass::Grass:
+    case SceneClass::DirtPath: return 2;  // ground: one class, the extra byte distinguishes its kinds
     case SceneClass::TexturedWall:
     case SceneClass::SmoothWall:
     case SceneClass::Wall: return 6;      // building

@@ -120,6 +120,8 @@ Json toJson(const LasersRun& run) {
   const laser_mapper::BeamCounts beams = run.beams();
   Json json = Json::object();
   json["points"] = run.points();
+  Json& by_sensor = json["points_by_sensor"] = Json::object();
+  for (const auto& [sensor, points] : run.pointsBySensor()) by_sensor[sensor] = points;
   json["points_per_s"] = static_cast<double>(beams.all) / std::max(run.seconds, 1e-9);
   const laser_mapper::QualityFigures walls = run.walls(), ground = run.ground();
   const auto known = [](const laser_mapper::QualityFigures& figures, double value) {
@@ -145,6 +147,7 @@ Json toJson(const LasersRun& run) {
   json["beams"] = beams.all;
   json["beams_mixed"] = beams.mixed;
   json["beams_ghosts"] = run.ghostBeams();
+  json["movers_removed"] = run.ghostBeams();
   json["beams_without_pose"] = beams.without_pose;
   json["beams_out_of_range"] = beams.out_of_range;
   json["points_stereo"] = run.stereo();

@@ -18,6 +18,7 @@
 #include "topics/lasers/map_colour.hpp"
 #include "topics/lasers/map_viewer.hpp"
 #include "topics/lasers/report_tiles.hpp"
+#include "topics/lasers/sensor_counts.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -78,10 +79,12 @@ std::string whyEmpty(const LaserMapRun& run) {
 }
 
 /// Returns points as records of the map's file, and counts them.
-std::string printPoints(const std::vector<MapPoint>& points, LaserMapRun& run, SigmaHistogram& sigmas) {
+std::string printPoints(const std::vector<MapPoint>& points, LaserMapRun& run, SensorCounts& counts,
+                        SigmaHistogram& sigmas) {
   std::string bytes;
   for (const MapPoint& point : points) {
     appendVertex(bytes, point);
+    counts.add(point.laser);
     if (point.laser == laser_mapper::kStereoSensor) ++run.stereo;
     else sigmas.add(point.sigma);
   }
@@ -112,9 +115,7 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<MapColo
   run.views = colours->views();
   std::vector<std::vector<urban_nav_core::Vector3d>> paths;
   std::vector<urban_nav_core::Vector3d> all;
-  std::vector<urban_nav_store::SessionId> ids;
   for (const laser_mapper::MappedSession& session : mapped) {
-    ids.push_back(session.id);
     paths.push_back(thinnedPath(*session.T_map_base));
     all.insert(all.end(), paths.back().begin(), paths.back().end());
   }
@@ -124,8 +125,10 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<MapColo
   if (!quality.places().empty()) run.quality_csv = quality.printCsv();
   MapPicture above(laser_mapper::viewFromAbove(all, kShownMargin, kLongestPicture));
   MapPicture perspective(laser_mapper::viewInPerspective(all, kPictureWidth, kPictureHeight));
+  const std::vector<laser_mapper::SensorName> sensors = sensorNames(*context.store, mapped);
   urban_nav_core::PlyWriter file((std::filesystem::path(context.options.out) / run.file).string(),
-                                 laser_mapper::mapLayout(laser_mapper::storedSensors(*context.store, ids)));
+                                 laser_mapper::mapLayout(sensors));
+  SensorCounts counts;
   SigmaHistogram sigmas;
   MapViewer viewer(first_session);
   laser_mapper::TileWriter tiles(*context.store, laser_mapper::tiledSessions(*context.store, mapped, map.passes()),
@@ -133,7 +136,7 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<MapColo
   run.ghost_beams = map.forEachTile([&](const laser_mapper::Tile& tile, std::vector<MapPoint> points) {
     run.coloured += colours->colour(tile, points);
     tiles.add(tile, points);
-    file.append(printPoints(points, run, sigmas));
+    file.append(printPoints(points, run, counts, sigmas));
     above.draw(points);
     perspective.draw(points);
     for (MapPoint& point : points) point.displacement = quality.displacementAt(point.p).value_or(-1.0F);
@@ -142,6 +145,7 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<MapColo
   colours->finish();
   tiles.finish();
   run.points = file.vertices();
+  run.points_by_sensor = counts.byName(sensors);
   run.sigma_median = sigmas.median();
   if (run.points > 0) file.commit();
   for (const auto& path : paths) {
@@ -188,6 +192,13 @@ void calibrateViews(const std::vector<std::size_t>& sessions, const LaserMap& ma
 std::size_t LasersRun::points() const {
   std::size_t all = 0;
   for (const LaserMapRun& map : maps) all += map.points;
+  return all;
+}
+
+std::map<std::string, std::size_t> LasersRun::pointsBySensor() const {
+  std::map<std::string, std::size_t> all;
+  for (const LaserMapRun& map : maps)
+    for (const auto& [sensor, points] : map.points_by_sensor) all[sensor] += points;
   return all;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,10 @@ struct LaserMapRun {
   std::size_t map = 0;  ///< number of its first session
   std::string file;     ///< "map.ply", in the output folder
   std::size_t points = 0;
-  std::size_t stereo = 0;    ///< points of dense stereo
-  std::size_t coloured = 0;  ///< points with the colour of a panorama
-  std::size_t views = 0;     ///< images used for its colours
+  std::map<std::string, std::size_t> points_by_sensor;  ///< names: roles; frames of other planar lasers
+  std::size_t stereo = 0;                               ///< points of dense stereo
+  std::size_t coloured = 0;                             ///< points with the colour of a panorama
+  std::size_t views = 0;                                ///< images used for its colours
   std::size_t passes = 0;
   std::size_t ghost_beams = 0;  ///< removed since beams of other times passed through their ends
   double sigma_median = 0.0;    ///< m
@@ -38,6 +40,7 @@ struct LasersRun {
   double seconds = 0.0;  ///< of the whole stage
 
   std::size_t points() const;
+  std::map<std::string, std::size_t> pointsBySensor() const;
   std::size_t coloured() const;
   std::size_t stereo() const;
   std::size_t chunksRendered() const;

@@ -10,6 +10,7 @@
 #include "laser_mapper/georeference/georeference.hpp"
 #include "laser_mapper/laser_map.hpp"
 #include "map/point_attributes.hpp"
+#include "topics/lasers/map_crs.hpp"
 #include "urban_nav_store/stored_map.hpp"
 
 namespace urban_nav {
@@ -17,12 +18,24 @@ namespace urban_nav {
 /// Files of a point map by format; an empty path is not written.
 struct MapFilePaths {
   std::string ply, pcd, las;
-  std::string grid;       ///< YAML of map_server; the PGM is written next to it
-  std::string ortho;      ///< PNG; its world file is written next to it
-  std::string mesh = {};  ///< PLY with vertices and faces
-  std::string crs = {};   ///< coordinate system of the LAS file, for MapCrs; empty: the frame map
+  std::string grid;                                             ///< YAML of map_server; the PGM is written next to it
+  std::string ortho;                                            ///< PNG; its world file is written next to it
+  std::string mesh = {};                                        ///< PLY with vertices and faces
+  std::string geotiff = {};                                     ///< the picture of `ortho`
+  std::string elevation = {}, slope = {}, traversability = {};  ///< GeoTIFF
+  std::string octomap = {};                                     ///< .bt, in the frame map
+  std::string crs = {};                                         ///< coordinate system, for MapCrs; empty: the frame map
+  std::string control = {};                                     ///< CSV of surveyed points, for MapCrs
 
-  bool any() const { return !(ply + pcd + las + grid + ortho + mesh).empty(); }
+  std::vector<const std::string*> all() const {
+    return {&ply, &pcd, &las, &grid, &ortho, &mesh, &geotiff, &elevation, &slope, &traversability, &octomap};
+  }
+  bool any() const { return needColour() || needGroundFiles() || !octomap.empty(); }
+  bool needColour() const { return !(ply + pcd + las + ortho + mesh + geotiff).empty(); }
+  bool needGroundFiles() const { return !(grid + elevation + slope + traversability).empty(); }
+  /// Returns whether there is a file whose coordinates `crs` sets.
+  bool areInCrs() const { return !(las + grid + ortho + mesh + geotiff + elevation + slope + traversability).empty(); }
+  bool needGround() const { return needGroundFiles() || !las.empty(); }
 };
 
 /// Returns the attributes that another stage adds to the points of a map; nullopt: none. `first`: the first session of
@@ -34,9 +47,10 @@ using AttributeSource = std::function<std::optional<PointAttributes>(urban_nav_s
 struct ExportedMap {
   std::size_t points = 0;
   std::vector<std::string> files;
-  std::optional<laser_mapper::GeoReference> reference;  ///< of the LAS file, with MapFilePaths::crs
+  std::optional<laser_mapper::GeoReference> reference;  ///< with MapFilePaths::crs
   int epsg = 0;
   std::string crs;  ///< for the user
+  std::vector<MapCrs::ControlError> control;
 };
 
 /// Returns whether a store holds a map of laser points of one of these sessions.
