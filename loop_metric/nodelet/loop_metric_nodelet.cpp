@@ -24,8 +24,7 @@ using urban_nav_ros::InfoInput;
 
 namespace {
 
-// A reset waits for pending candidates, and a caller of the service at most this long.
-constexpr std::chrono::seconds kResetTimeout{25};
+constexpr std::chrono::seconds kResetTimeout{25};  // a caller of the service waits for candidates at most this long
 
 StoreWriterLink::Options storeOptions() {
   StoreWriterLink::Options options;

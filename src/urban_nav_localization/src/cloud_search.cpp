@@ -119,18 +119,18 @@ class CloudSearch::Implementation {
     const StampNs newest = odometry.trajectory().back().stamp;
     const double driven = odometry.distance(newest);
     const bool by_sweeps = sources == BeamSources::Lidars;
-    double way = std::min(parameters_.registration.cloud_half_length, driven / 2.0);
-    if (by_sweeps) way = std::min(way, kMaxSweepHalfLength);
-    if (way < (by_sweeps ? kMinSweepHalfLength : kMinHalfLength)) return std::nullopt;
+    double half_length = std::min(parameters_.registration.cloud_half_length, driven / 2.0);
+    if (by_sweeps) half_length = std::min(half_length, kMaxSweepHalfLength);
+    if (half_length < (by_sweeps ? kMinSweepHalfLength : kMinHalfLength)) return std::nullopt;
     const bool is_known = localiser.now().state == LocalizationState::Localized;
     const double distance = is_known ? kLocalizedQueryDistance : kQueryDistance;
     if (last_query_ && odometry.nearestFrame(*last_query_) && driven - odometry.distance(*last_query_) < distance)
       return std::nullopt;
     if (is_known && localiser.distanceSinceMatch() < distance) return std::nullopt;
     Stretch stretch;
-    stretch.way = way;
-    stretch.at = frameAt(odometry, driven - way);
-    stretch.is_firm = by_sweeps || way >= kMinFirmHalfLength;
+    stretch.way = half_length;
+    stretch.at = frameAt(odometry, driven - half_length);
+    stretch.is_firm = by_sweeps || half_length >= kMinFirmHalfLength;
     return stretch;
   }
 

@@ -17,8 +17,9 @@ constexpr double kPlaceVoxel = 0.5;  // m
 
 /// Surroundings in a courtyard of its own, seen from a position (m) with a heading (deg).
 PlaceDescription placeIn(std::uint64_t seed, double x = 0.0, double y = 0.0, double heading = 0.0) {
-  PointCloud cloud =
-      urban_nav_core::testing::scan(courtyard(seed), urban_nav_core::testing::stand(x, y, heading), {}, seed + 7);
+  const urban_nav_core::Pose T_world_sensor(
+      Eigen::Quaterniond(Eigen::AngleAxisd(heading * M_PI / 180.0, Eigen::Vector3d::UnitZ())), {x, y, 1.5});
+  PointCloud cloud = urban_nav_core::testing::scan(courtyard(seed), T_world_sensor, {}, seed + 7);
   for (Eigen::Vector3f& p : cloud.points) p.z() += 1.5F;  // base_link is on the ground
   return describePlace(cloud, kPlaceVoxel).value();
 }
@@ -40,7 +41,7 @@ TEST(SimilarPlaces, AreEarlierOnesFarAlongThePathAtAnyHeading) {
   EXPECT_TRUE(finder.add({placeIn(104, 0.0, 0.5, 170.0), 1, 10.0, true}).empty()) << "known";
 }
 
-TEST(SimilarPlaces, TwoPlacesThatLookAlikeAreBothProposed) {
+TEST(SimilarPlaces, TwoSimilarPlacesAreBothProposed) {
   SimilarPlaceFinder finder;
   finder.add({placeIn(5), 0, 0.0, false});
   finder.add({placeIn(5, 0.1, 0.0, 90.0), 1, 0.0, true});

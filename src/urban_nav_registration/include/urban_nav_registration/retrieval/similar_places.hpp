@@ -11,7 +11,7 @@
 
 namespace urban_nav_registration {
 
-/// How places are described by local clouds and proposed as closures.
+/// Spacing and extent of the local clouds that describe places.
 struct CloudPlaces {
   static constexpr double kSpacing = 3.0;       ///< m of path between places: half the width of a lane and more
   static constexpr double kHalfLength = 2.0;    ///< m of path before and after a place, whose sweeps describe it
