@@ -67,8 +67,8 @@ class LaserMapperStage {
   static constexpr const char* name = "laser_mapper";
   static constexpr const char* topic = "laser map";
   using Input = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr,
-                             sensor_msgs::PointCloud2ConstPtr, urban_nav_core::StampedPose, urban_nav_core::SessionStep, urban_nav_core::GraphUpdate,
-                             urban_nav_core::MetricClosure>;
+                             sensor_msgs::PointCloud2ConstPtr, urban_nav_core::StampedPose, urban_nav_core::SessionStep,
+                             urban_nav_core::GraphUpdate, urban_nav_core::MetricClosure>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
   explicit LaserMapperStage(Node& node);

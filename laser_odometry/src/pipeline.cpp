@@ -139,8 +139,8 @@ Pipeline::Prediction Pipeline::predict(const Sweep& sweep, const std::optional<M
   }
   if (space_ == MotionSpace::Planar) {
     prediction.T_last_now = toPlanar(prediction.T_last_now);
-    prediction.covariance = toPlanar(prediction.covariance) + floorOfPose(parameters_) +
-                            floorOfStep(parameters_, prediction.T_last_now.t().norm());
+    prediction.covariance =
+        toPlanar(prediction.covariance) + floorOfStep(parameters_, prediction.T_last_now.t().norm());
   }
   return prediction;
 }
@@ -330,6 +330,7 @@ void Pipeline::grow(const Aligned& aligned, const SweepPoints& points) {
 void Pipeline::continueByPrediction(const Prediction& prediction, LaserPose& result) {
   result.step.T_from_to = prediction.T_last_now;
   result.step.covariance = started_ ? prediction.covariance : Matrix6d(kFirstCovariance * Matrix6d::Identity());
+  if (started_ && space_ == MotionSpace::Planar) result.step.covariance += 2.0 * floorOfPose(parameters_);  // both ends
   result.step.drift_covariance = started_ ? prediction.covariance : Matrix6d(Matrix6d::Zero());
   T_odom_base_ = T_odom_base_ * prediction.T_last_now;
   if (started_) motion_.update(prediction.T_last_now, prediction.seconds, prediction.is_measured);

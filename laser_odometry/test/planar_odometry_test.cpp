@@ -106,6 +106,36 @@ TEST(PlanarOdometry, ACorridorIsNamedAndDoesNotRunAway) {
   }
 }
 
+TEST(PlanarOdometry, FromARoomIntoACorridorTheLastVelocityContinuesWithGrowingVariance) {
+  BoxWorld world;  // a room of 6 m, and a corridor of 1.6 m width that ends in another one
+  addWall(-3.2, -3.0, -3.0, 3.0, world);
+  addWall(-3.0, 3.0, 3.0, 3.2, world);
+  addWall(-3.0, -3.2, 3.0, -3.0, world);
+  addWall(3.0, 0.8, 33.0, 3.0, world);
+  addWall(3.0, -3.0, 33.0, -0.8, world);
+  addWall(33.0, 3.0, 39.0, 3.2, world);
+  addWall(33.0, -3.2, 39.0, -3.0, world);
+  addWall(39.0, -3.2, 39.2, 3.2, world);
+  SpinningLidar laser = makePlanarLaser();
+  Parameters parameters;
+  parameters.max_range = 8.0;  // between x = 5 m and 31 m, 260 scans, no wall across is in range
+  const PlanarDrive run = drivePlanar(world, laser, alongX(1.0), 360, parameters);
+  int free = 0;
+  for (std::size_t i = 0; i < run.poses.size(); ++i) {
+    const LaserPose& pose = run.poses[i];
+    ASSERT_NE(pose.status.health, Health::Lost) << i << " " << pose.status;
+    const double error = (pose.T_odom_base.t() - run.truth[i].t()).norm();
+    EXPECT_LT(error, 4.0 * std::sqrt(pose.covariance(0, 0) + pose.covariance(1, 1)) + 0.01) << i;
+    EXPECT_LT(std::abs(pose.T_odom_base.t().y()), 0.03) << i;
+    if (pose.free_directions.empty()) continue;
+    ++free;
+    EXPECT_GT(std::abs(pose.free_directions[0][0]), std::cos(5.0 * M_PI / 180.0)) << i;
+  }
+  EXPECT_GT(free, 240);
+  EXPECT_LT(free, 280);
+  EXPECT_TRUE(run.poses.back().free_directions.empty());
+}
+
 TEST(PlanarOdometry, InACorridorThePriorGivesTheMotionAlongIt) {
   const SpinningLidar laser = makePlanarLaser();
   LaserOdometry odometry({}, laser.T_base_lidar, Scanner::Planar);

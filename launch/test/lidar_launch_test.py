@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A robot with a 3D LiDAR and no camera: bag.launch with odometry:=laser maps a simulated drive and closes its way back, and localization.launch finds the robot in
+"""A robot with a 3D LiDAR and no camera: bag.launch with odometry:=laser maps a simulated drive and closes its return, and localization.launch finds the robot in
 the map of `urban_nav map`."""
 import subprocess
 import sys
@@ -39,9 +39,9 @@ class LidarLaunch(LaunchCase):
         return bag
 
     def listen(self, name, kind):
-        heard = []
-        self.listener.subscribers.append(rospy.Subscriber(name, kind, heard.append, queue_size=1000))
-        return heard
+        messages = []
+        self.listener.subscribers.append(rospy.Subscriber(name, kind, messages.append, queue_size=1000))
+        return messages
 
     def errors(self, poses, stamps, firsts):
         """The errors of poses relative to those at the stamps `firsts`: m, rad."""

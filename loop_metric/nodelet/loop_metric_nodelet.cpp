@@ -42,7 +42,8 @@ class LoopMetricStage {
   static constexpr const char* name = "loop_metric";
   static constexpr const char* topic = "loop closures";
   using Input = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr,
-                             sensor_msgs::PointCloud2ConstPtr, urban_nav_core::StampedTurn, urban_nav_core::StampedPose, urban_nav_core::SessionStep>;
+                             sensor_msgs::PointCloud2ConstPtr, urban_nav_core::StampedTurn, urban_nav_core::StampedPose,
+                             urban_nav_core::SessionStep>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
   explicit LoopMetricStage(Node& node);

@@ -62,8 +62,8 @@ std::optional<ClosureTest> nearestTest(const Evidence& evidence) {
 }
 
 std::string tryTitle(const Evidence& evidence, std::size_t number) {
-  const std::string title = evidence.tries[number].method == urban_nav_core::ClosureMethod::Icp ? "Clouds of the lasers"
-                                                                                                : "Two views";
+  const std::string title =
+      evidence.tries[number].method == urban_nav_core::ClosureMethod::Icp ? "Clouds of the lasers" : "Two views";
   if (evidence.tries.size() < 2) return title;
   return title + " (" + std::to_string(number + 1) + " of " + std::to_string(evidence.tries.size()) + " tries)";
 }

@@ -12,11 +12,11 @@ using urban_nav_core::ClosureVerdict;
 
 Evidence::Try madeBy(urban_nav_core::ClosureMethod method, ClosureVerdict verdict,
                      std::vector<urban_nav_registration::ClosureTest> tests) {
-  Evidence::Try made;
-  made.method = method;
-  made.verdict = verdict;
-  made.tests = std::move(tests);
-  return made;
+  Evidence::Try attempt;
+  attempt.method = method;
+  attempt.verdict = verdict;
+  attempt.tests = std::move(tests);
+  return attempt;
 }
 
 Evidence rejectedThenAccepted() {

@@ -131,7 +131,8 @@ void LiveMap::addSweep(const std::string& frame, const urban_nav_core::Sweep& sw
   }
   rounds_->add(streamNumber(frame), sweep.reference, [this, frame, sweep] {
     Lidar& lidar = lidars_.at(frame);
-    const std::optional<Pose> newest = T_odom_base_.empty() ? std::nullopt : std::optional(T_odom_base_.rbegin()->second);
+    const std::optional<Pose> newest =
+        T_odom_base_.empty() ? std::nullopt : std::optional(T_odom_base_.rbegin()->second);
     if (!lidar.spacing.takes(sweep.reference, newest)) return;
     TableStore<LidarSweep>(*store_).put({kLiveSession, lidar.role, sweep.reference, LidarSweep::pack(sweep)});
     ++counts_.sweeps;

@@ -15,8 +15,8 @@ using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_core::Sweep;
 
-constexpr double kWallY = 5.0;                    // m, the front of the only wall
-constexpr StampNs kSweepPeriod = 100'000'000;     // ns
+constexpr double kWallY = 5.0;                 // m, the front of the only wall
+constexpr StampNs kSweepPeriod = 100'000'000;  // ns
 const char* const kSpinning = "velodyne";
 
 Pose mountingOfLidar() { return Pose(Eigen::Quaterniond::Identity(), {0.1, 0.0, 1.5}); }

@@ -133,8 +133,7 @@ class ClosureVerifier {
   SequentialChecks checks_;
   Clock::time_point last_step_ = Clock::now();
 
-  std::atomic<std::int64_t> waits_{0}, stereo_{0}, icp_{0}, rejected_{0}, parts_{0},
-      proposed_{0};
+  std::atomic<std::int64_t> waits_{0}, stereo_{0}, icp_{0}, rejected_{0}, parts_{0}, proposed_{0};
   urban_nav_live::WorkerLoop<Input> loop_;
 };
 

@@ -15,7 +15,8 @@ std::pair<StageFault, std::string> findFault(const LoopsState& state) {
   if (state.stereo && !state.image_fault.empty()) return {StageFault::NoImages, "no keyframes: " + state.image_fault};
   if (!state.clouds) return {StageFault::None, ""};
   // Sweeps of a 3D LiDAR make complete clouds alone.
-  if (!state.laser_fault.empty() && state.recorder.sweeps == 0) return {StageFault::NoLasers, "no complete clouds: " + state.laser_fault};
+  if (!state.laser_fault.empty() && state.recorder.sweeps == 0)
+    return {StageFault::NoLasers, "no complete clouds: " + state.laser_fault};
   if (!state.laser_pose_fault.empty()) return {StageFault::NoLaserPlace, state.laser_pose_fault};
   return {StageFault::None, ""};
 }

@@ -172,7 +172,8 @@ void SessionRecorder::begin(const SessionStep& first) {
   verifier_.push(ClosureVerifier::SessionStarted{session_->id, named.continues});
   for (auto& [frame, laser] : lasers_) {
     laser.is_next = false;
-    if (laser.T_base_laser) verifier_.push(LaserAt{storedName(frame, laser), *laser.T_base_laser, 0, !laser.role.empty()});
+    if (laser.T_base_laser)
+      verifier_.push(LaserAt{storedName(frame, laser), *laser.T_base_laser, 0, !laser.role.empty()});
   }
   for (Write& write : std::exchange(before_, {})) post(std::move(write));
 }

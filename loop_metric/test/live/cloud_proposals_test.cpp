@@ -18,28 +18,28 @@ using urban_nav_core::StampNs;
 using urban_nav_core::TopologicalClosure;
 using urban_nav_core::testing::World;
 
-constexpr int kOutFrames = 130;                   // 26 m, as many back
-constexpr double kFrameMetres = 0.2;              // m
-constexpr StampNs kFrameTime = 100'000'000;       // ns
-constexpr double kVoxel = 0.5;                    // m
+constexpr int kOutFrames = 130;              // 26 m, as many back
+constexpr double kFrameMetres = 0.2;         // m
+constexpr StampNs kFrameTime = 100'000'000;  // ns
+constexpr double kVoxel = 0.5;               // m
 constexpr StampNs kYesterday = -86'400'000'000'000;
 
 /// A drive through the courtyard and back.
-Pose poseOf(int frame) {
+Pose poseAtFrame(int frame) {
   const double x = kFrameMetres * (frame <= kOutFrames ? frame : 2 * kOutFrames - frame) - 13.0;
   const double heading = frame <= kOutFrames ? 0.0 : M_PI;
   return Pose(Eigen::Quaterniond(Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ())),
               {x, frame <= kOutFrames ? -0.5 : 0.5, 0.0});
 }
-StampNs stampOf(int frame) { return (frame + 1) * kFrameTime; }
+StampNs stampAtFrame(int frame) { return (frame + 1) * kFrameTime; }
 
 OdometryChain drive(int frames, StampNs since = 0) {
   OdometryChain odometry;
   for (int i = 1; i <= frames; ++i) {
     urban_nav_core::RelativePose step;
-    step.from = since + stampOf(i - 1);
-    step.to = since + stampOf(i);
-    step.T_from_to = poseOf(i - 1).inverse() * poseOf(i);
+    step.from = since + stampAtFrame(i - 1);
+    step.to = since + stampAtFrame(i);
+    step.T_from_to = poseAtFrame(i - 1).inverse() * poseAtFrame(i);
     step.covariance = 1e-7 * urban_nav_core::Matrix6d::Identity();
     odometry.append(step);
   }
@@ -48,8 +48,8 @@ OdometryChain drive(int frames, StampNs since = 0) {
 
 PointCloud cloudAt(const World& world, int frame) {
   const Pose T_base_lidar(Eigen::Quaterniond::Identity(), {0.0, 0.0, 1.5});
-  PointCloud cloud = urban_nav_core::testing::scan(world, poseOf(frame) * T_base_lidar, {},
-                                                   static_cast<std::uint64_t>(frame));
+  PointCloud cloud =
+      urban_nav_core::testing::scan(world, poseAtFrame(frame) * T_base_lidar, {}, static_cast<std::uint64_t>(frame));
   for (Eigen::Vector3f& p : cloud.points) p += Eigen::Vector3f(0.0F, 0.0F, 1.5F);
   return cloud;
 }
@@ -65,7 +65,7 @@ std::vector<TopologicalClosure> describeAll(CloudProposals& proposals, const Wor
   return closures;
 }
 
-TEST(CloudProposals, ProposeThePlacesOfTheWayBack) {
+TEST(CloudProposals, ProposeThePlacesOfTheReturn) {
   const World world = urban_nav_core::testing::courtyard(4);
   CloudProposals proposals(kVoxel);
   std::vector<TopologicalClosure> closures;
@@ -76,9 +76,10 @@ TEST(CloudProposals, ProposeThePlacesOfTheWayBack) {
   int revisits = 0;
   for (const TopologicalClosure& closure : closures) {
     EXPECT_EQ(closure.a.session + closure.b.session, "");
-    const int a = static_cast<int>(closure.a.stamp / kFrameTime) - 1, b = static_cast<int>(closure.b.stamp / kFrameTime) - 1;
+    const int a = static_cast<int>(closure.a.stamp / kFrameTime) - 1,
+              b = static_cast<int>(closure.b.stamp / kFrameTime) - 1;
     if (b < kOutFrames + 50) continue;  // nothing that was seen before is 20 m back along the path
-    EXPECT_LT(distanceBetween(poseOf(a), poseOf(b)), 6.0) << a << " and " << b;
+    EXPECT_LT(distanceBetween(poseAtFrame(a), poseAtFrame(b)), 6.0) << a << " and " << b;
     ++revisits;
   }
   EXPECT_GE(revisits, 5) << "of 16 m";

@@ -37,11 +37,11 @@ class Truth:
     def pose(self, stamp):
         i = self.index(stamp)
         x, y, z, w = self.turns[i]
-        made = np.eye(4)
-        made[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+        pose = np.eye(4)
+        pose[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
                         [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
-        made[:3, 3] = self.places[i]
-        return made
+        pose[:3, 3] = self.places[i]
+        return pose
 
     def heading(self, i):
         x, y, z, w = self.turns[i]

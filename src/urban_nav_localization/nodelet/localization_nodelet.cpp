@@ -40,8 +40,8 @@ class LocalizationStage {
   static constexpr const char* name = "localization";
   static constexpr const char* topic = "localization";
   using Input = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr,
-                             sensor_msgs::PointCloud2ConstPtr, urban_nav_core::StampedTurn, urban_nav_core::StampedPose, urban_nav_core::SessionStep,
-                             LiveLocaliser::InitialPose>;
+                             sensor_msgs::PointCloud2ConstPtr, urban_nav_core::StampedTurn, urban_nav_core::StampedPose,
+                             urban_nav_core::SessionStep, LiveLocaliser::InitialPose>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
   explicit LocalizationStage(Node& node);

@@ -51,8 +51,8 @@ constexpr double kMinHalfLength = 3.0;      // m of a stretch of planar scans th
 constexpr double kMinFirmHalfLength = 5.0;  // m of a stretch of planar scans whose match may start a hypothesis
 // m of a stretch of sweeps: as between two matches that are independent, and its sweeps fill the gaps between rings.
 constexpr double kMinSweepHalfLength = 1.0;
-constexpr double kMaxSweepHalfLength = 3.0;  // m; further sweeps show the same surroundings again
-constexpr double kQueryDistance = 2.0;      // m between queries
+constexpr double kMaxSweepHalfLength = 3.0;      // m; further sweeps show the same surroundings again
+constexpr double kQueryDistance = 2.0;           // m between queries
 constexpr double kLocalizedQueryDistance = 5.0;  // m between queries while Localized
 constexpr std::size_t kMaxAlignedPlaces = 3;     // of one query
 // Smallest overlap of the vertical structure without a pose prior. Of firm stretches, 95 of 100 correct matches have

@@ -81,17 +81,30 @@ std::string makePictures(const std::vector<PagePicture>& pictures) {
   return html + "</div>\n";
 }
 
+/// Returns a row; a cell with several lines keeps them.
+std::string makeRow(const std::vector<std::string>& cells, const RowAttributes& attributes) {
+  std::string html = "<tr";
+  if (!attributes.id.empty()) html += " id=\"" + escapeHtml(attributes.id) + "\"";
+  if (!attributes.edge.empty()) html += " data-edge=\"" + escapeHtml(attributes.edge) + "\"";
+  html += ">";
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const bool has_lines = cells[i].find('\n') != std::string::npos;
+    const std::string text = i == 0 && !attributes.link.empty()
+                                 ? "<a href=\"" + escapeHtml(attributes.link) + "\">" + escapeHtml(cells[i]) + "</a>"
+                                 : escapeHtml(cells[i]);
+    html += (has_lines ? "<td class=\"lines\">" : "<td>") + text + "</td>";
+  }
+  return html + "</tr>\n";
+}
+
 std::string makeTable(const PageTable& table) {
   std::string html = table.title.empty() ? "" : "<h3>" + escapeHtml(table.title) + "</h3>";
   html +=
       std::string("<div class=\"scroll") + (table.rows.size() > kLongTable ? " long" : "") + "\"><table><thead><tr>";
   for (const std::string& cell : table.head) html += "<th>" + escapeHtml(cell) + "</th>";
   html += "</tr></thead><tbody>\n";
-  for (const std::vector<std::string>& row : table.rows) {
-    html += "<tr>";
-    for (const std::string& cell : row) html += "<td>" + escapeHtml(cell) + "</td>";
-    html += "</tr>\n";
-  }
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    html += makeRow(table.rows[i], i < table.attributes.size() ? table.attributes[i] : RowAttributes());
   html += "</tbody></table></div>";
   return table.caption.empty() ? html : html + "<p class=\"caption\">" + escapeHtml(table.caption) + "</p>";
 }

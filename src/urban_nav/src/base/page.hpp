@@ -36,11 +36,19 @@ struct PagePicture {
   int width = 0, height = 0;
 };
 
+/// Attributes of a table row; empty ones are omitted.
+struct RowAttributes {
+  std::string id;    ///< of the row, as target of a link
+  std::string edge;  ///< `data-edge`: ID of a closure in the store
+  std::string link;  ///< address to which the first cell links
+};
+
 struct PageTable {
   std::string title;
   std::vector<std::string> head;
   std::vector<std::vector<std::string>> rows;
   std::string caption;
+  std::vector<RowAttributes> attributes = {};  ///< of the rows, or empty
 };
 
 struct Section {

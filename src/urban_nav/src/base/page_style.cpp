@@ -51,6 +51,7 @@ svg.plot { width: 100%; height: auto; display: block; overflow: visible; }
 .read { fill: var(--ink); font-size: 12px; paint-order: stroke; stroke: var(--card); stroke-width: 4px; pointer-events: none; }
 .scroll { overflow-x: auto; margin: 8px 0; } .long { max-height: 480px; overflow-y: auto; } table { border-collapse: collapse; font-size: 0.9rem; min-width: 50%; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: 5px 14px 5px 0; border-bottom: 1px solid var(--edge); vertical-align: top; } th { color: var(--soft); font-weight: 550; }
+td.lines { white-space: pre-wrap; } td a { color: var(--a); } tr:target { background: var(--grid); }
 footer { color: var(--soft); font-size: 0.85rem; padding-top: 26px; padding-bottom: 40px; }
 @media print { :root { --paper: #fff; --card: #fff; } nav, .running { display: none; } body { font-size: 11pt; } h2 { break-after: avoid; } }
 )css";

@@ -6,11 +6,15 @@
 #include <ctime>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 
 #include "base/plot.hpp"
 #include "inspect/store_info.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/trajectory/statistics.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_registration/session/calibration_fingerprint.hpp"
@@ -27,16 +31,36 @@ using urban_nav_store::Store;
 
 namespace {
 
-/// Returns the sorted names of stores and releases below a folder.
-std::vector<std::string> findStores(const std::string& folder) {
-  std::vector<std::string> names;
+constexpr const char* kSummary = "summary.json";
+
+/// Sorted names of files below a folder.
+struct FoundFiles {
+  std::vector<std::string> stores, summaries;
+};
+
+/// Finds stores and releases, and the summaries of runs of map.
+FoundFiles findFiles(const std::string& folder) {
+  FoundFiles found;
   std::error_code ignored;
   for (fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, ignored), end;
-       entry != end; entry.increment(ignored))
-    if (entry->is_regular_file(ignored) && urban_nav_store::isStore(entry->path().string()))
-      names.push_back(entry->path().lexically_relative(folder).generic_string());
-  std::sort(names.begin(), names.end());
-  return names;
+       entry != end; entry.increment(ignored)) {
+    if (!entry->is_regular_file(ignored)) continue;
+    const std::string name = entry->path().lexically_relative(folder).generic_string();
+    if (entry->path().filename() == kSummary) found.summaries.push_back(name);
+    else if (urban_nav_store::isStore(entry->path().string())) found.stores.push_back(name);
+  }
+  std::sort(found.stores.begin(), found.stores.end());
+  std::sort(found.summaries.begin(), found.summaries.end());
+  return found;
+}
+
+/// Returns the reason why a recording could not be mapped, from the summary that the workflow writes for it; nullopt
+/// for the summary of a map, and for other content.
+std::optional<std::string> readFailure(const std::string& summary) {
+  const auto json = nlohmann::json::parse(urban_nav_core::readBytes(summary), nullptr, false);
+  if (!json.is_object()) return std::nullopt;
+  const auto reason = json.find("failed");
+  return reason != json.end() && reason->is_string() ? std::optional(reason->get<std::string>()) : std::nullopt;
 }
 
 /// "2008-11-03".
@@ -89,6 +113,23 @@ void addClosures(Store& store, std::vector<FleetSession>& sessions) {
   for (FleetSession& session : sessions)
     if (const auto found = misses.find(session.session.id); found != misses.end())
       session.disagreement_m = urban_nav_core::quantile(found->second, 0.5);
+}
+
+/// Adds the recordings that could not be mapped, and returns their folders.
+std::set<std::string> addFailures(const std::vector<std::string>& summaries, Fleet& fleet) {
+  std::set<std::string> folders;
+  for (const std::string& name : summaries) {
+    try {
+      const auto reason = readFailure((fs::path(fleet.folder) / name).string());
+      if (!reason) continue;
+      const std::string folder = fs::path(name).parent_path().generic_string();
+      fleet.failed.emplace_back(folder, *reason);
+      folders.insert(folder);
+    } catch (const urban_nav_core::Error& error) {
+      fleet.unreadable.emplace_back(name, error.what());
+    }
+  }
+  return folders;
 }
 
 std::vector<FleetSession> readSessions(const std::string& path, const std::string& name) {
@@ -202,8 +243,11 @@ Fleet readFleet(const std::string& folder) {
   Fleet fleet;
   fleet.folder = folder;
   std::map<urban_nav_store::SessionId, FleetSession> sessions;
-  for (const std::string& name : findStores(folder)) {
+  const FoundFiles files = findFiles(folder);
+  const std::set<std::string> failed = addFailures(files.summaries, fleet);
+  for (const std::string& name : files.stores) {
     const std::string path = (fs::path(folder) / name).string();
+    if (failed.count(fs::path(name).parent_path().generic_string()) > 0) continue;
     try {
       if (urban_nav_store::isRelease(path)) {
         Store release = urban_nav_store::openForReading(path, Access::Frozen);
@@ -239,6 +283,9 @@ Page fleetPage(const Fleet& fleet) {
     page.verdicts.push_back(
         {Grade::Fair, std::to_string(fleet.sessions.size() - joined) + " sessions are not joined to others",
          "The table lists the reasons; urban_nav join makes one map of sessions that show the same places."});
+  if (!fleet.failed.empty())
+    page.verdicts.push_back({Grade::Bad, std::to_string(fleet.failed.size()) + " recordings could not be mapped",
+                             fleet.failed.front().first + ": " + fleet.failed.front().second});
   if (!fleet.unreadable.empty())
     page.verdicts.push_back({Grade::Bad, std::to_string(fleet.unreadable.size()) + " stores cannot be read",
                              fleet.unreadable.front().second});
@@ -247,9 +294,13 @@ Page fleetPage(const Fleet& fleet) {
   Section section{"sessions", "Sessions", "", {}, {}, {sessionTable(fleet), coverageTable(fleet)}};
   if (!fleet.drifts.empty()) section.tables.push_back(listTable("Calibrations that differ", "session", fleet.drifts));
   if (!fleet.releases.empty()) section.tables.push_back(listTable("Releases", "file", fleet.releases));
-  std::vector<std::string> unreadable;
-  for (const auto& [name, reason] : fleet.unreadable) unreadable.push_back(name + ": " + reason);
-  if (!unreadable.empty()) section.tables.push_back(listTable("Stores that cannot be read", "file", unreadable));
+  const auto addReasons = [&](const char* title, const char* head, const auto& named) {
+    PageTable table{title, {head, "reason"}, {}, ""};
+    for (const auto& [name, reason] : named) table.rows.push_back({name, reason});
+    if (!table.rows.empty()) section.tables.push_back(std::move(table));
+  };
+  addReasons("Recordings that could not be mapped", "folder", fleet.failed);
+  addReasons("Stores that cannot be read", "file", fleet.unreadable);
   page.sections.push_back(std::move(section));
   return page;
 }
@@ -283,6 +334,8 @@ Json toJson(const Fleet& fleet) {
   Json& unreadable = json["unreadable"] = Json::array();
   for (const auto& [name, reason] : fleet.unreadable)
     unreadable.append(Json::object({{"store", name}, {"reason", reason}}));
+  Json& failed = json["failed"] = Json::array();
+  for (const auto& [name, reason] : fleet.failed) failed.append(Json::object({{"folder", name}, {"reason", reason}}));
   return json;
 }
 

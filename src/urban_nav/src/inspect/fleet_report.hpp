@@ -32,11 +32,14 @@ struct Fleet {
   std::vector<FleetSession> sessions;  ///< of session stores, in the order of their start; each once
   std::vector<std::string> releases;   ///< files, relative to the folder
   std::vector<std::pair<std::string, std::string>> unreadable;  ///< files with the reason
+  /// Recordings that the workflow could not map: the folder of each, relative to `folder`, with the reason.
+  std::vector<std::pair<std::string, std::string>> failed;
   std::vector<std::string> drifts;  ///< sentences on calibrations that differ between sessions of one robot
 };
 
 /// Reads all stores below a folder, in the order of their names. A session of several stores is taken from the
-/// one with the largest map. Unreadable stores are listed. Throws UserError if `folder` is not a folder.
+/// one with the largest map. Unreadable stores are listed, and so are the folders whose summary.json states that a
+/// recording failed; stores in these are left out. Throws UserError if `folder` is not a folder.
 Fleet readFleet(const std::string& folder);
 
 Page fleetPage(const Fleet& fleet);

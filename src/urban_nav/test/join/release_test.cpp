@@ -132,6 +132,11 @@ TEST_F(JoinedDays, AFolderOfStoresIsReportedOnOnePage) {
   std::filesystem::copy_file(store("second"), fleet + "/second.db");
   urban_nav_input::testing::writeFile(fleet + "/damaged.db", readFile(store("first")).substr(0, 100'000));
   makeReleaseOnce(store("first"), fleet + "/first.release");
+  for (const char* name : {"/sessions/broken", "/sessions/sound"}) std::filesystem::create_directories(fleet + name);
+  std::filesystem::copy_file(store("first"), fleet + "/sessions/broken/session.db");
+  urban_nav_input::testing::writeFile(fleet + "/sessions/broken/summary.json",
+                                      R"({"failed": "broken.bag: no message can be read", "exit_status": 1})");
+  urban_nav_input::testing::writeFile(fleet + "/sessions/sound/summary.json", R"({"wall_s": 3.5})");
   ASSERT_EQ(runWords({"info", fleet, "--report", file("fleet.html"), "--json", file("fleet.json")}), 0);
   const Fleet read = readFleet(fleet);
   ASSERT_EQ(read.sessions.size(), 3U);
@@ -141,6 +146,10 @@ TEST_F(JoinedDays, AFolderOfStoresIsReportedOnOnePage) {
   EXPECT_EQ(read.releases.size(), 1U);
   ASSERT_EQ(read.unreadable.size(), 1U);
   EXPECT_EQ(read.unreadable.front().first, "damaged.db");
+  ASSERT_EQ(read.failed.size(), 1U) << "the summary of a map is no failure";
+  EXPECT_EQ(read.failed.front().first, "sessions/broken");
+  for (const char* output : {"fleet.html", "fleet.json"})
+    EXPECT_NE(readFile(file(output)).find("broken.bag: no message can be read"), std::string::npos) << output;
   for (const char* word : {"\"joined\"", "\"apart\"", "robot/days.db", "damaged.db"})
     EXPECT_NE(readFile(file("fleet.json")).find(word), std::string::npos) << word;
   EXPECT_NE(readFile(file("fleet.html")).find("Robots and days"), std::string::npos);

@@ -94,7 +94,9 @@ TEST_F(PresetOptions, GiveDoctorTheTopicsAndUnitsOfTheDriver) {
 }
 
 TEST_F(PresetOptions, OfAnotherDriverAreRefused) {
-  EXPECT_EQ(doctor({"--preset", "realsense"}), 2);
+  EXPECT_EQ(doctor({"--preset", "realsense"}), 1);
+  EXPECT_EQ(result()["findings"][0]["kind"], "topics");
+  EXPECT_NE(result()["findings"][0]["text"].dump().find("infra2/camera_info"), std::string::npos);
   EXPECT_EQ(doctor({"--preset", "kinect"}), 2);
 }
 

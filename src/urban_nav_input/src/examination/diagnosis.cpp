@@ -54,7 +54,8 @@ class FaultCounter {
 std::vector<std::string> describe(const SourceInfo& info) {
   std::vector<std::string> contents = info.notes;
   if (!info.has_images) {
-    contents.push_back("no images: the session consists of the sweeps of its 3D LiDARs");
+    contents.push_back(std::string("no images: the session consists of the ") +
+                       (info.planar_role.empty() ? "sweeps of its 3D LiDARs" : "scans of its horizontal planar laser"));
     return contents;
   }
   const urban_nav_core::Pinhole& left = info.camera.left;

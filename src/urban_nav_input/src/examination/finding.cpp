@@ -121,6 +121,7 @@ Finding errorFinding(const std::string& error, const std::string& allowed) {
   for (const char* word : {"camera_info", "calib", "baseline", "focal", "distortion", "sensor.yaml", "projection"})
     if (contains(error, word)) finding.kind = FindingKind::Calibration;
   if (contains(error, "points_time")) finding.kind = FindingKind::SweepTimes;
+  if (contains(error, "--preset")) finding.kind = FindingKind::Topics;
   if (contains(error, "encoding") || contains(error, "bits")) finding.kind = FindingKind::Depth;
   if (contains(error, "rosbag reindex")) finding.remedy = "rosbag reindex, then doctor again";
   if (!finding.remedy.empty()) return finding;

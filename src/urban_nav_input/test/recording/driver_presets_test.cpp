@@ -80,8 +80,9 @@ TEST(DriverPresets, NameAllRolesThatTheRecordingLacks) {
   EXPECT_NE(refusal.find("right (.../infra2/image_rect_raw)"), std::string::npos) << refusal;
   EXPECT_NE(refusal.find("left_info (.../infra1/camera_info)"), std::string::npos) << refusal;
   EXPECT_EQ(refusal.find("right_info"), std::string::npos) << refusal;
+  without["/mine/camera_info"] = kInfos;
   EXPECT_EQ(presetRefusal(without, {"preset:=realsense", "right:=/camera/camera/color/image_raw",
-                                    "left_info:=/camera/camera/infra2/camera_info"}),
+                                    "left_info:=/mine/camera_info"}),
             "accepted");
 }
 

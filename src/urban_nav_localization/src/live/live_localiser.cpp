@@ -212,8 +212,7 @@ bool LiveLocaliser::queryKeyframe() {
 
 bool LiveLocaliser::queryCloud() {
   if (!clouds_ || state_.scans + state_.sweeps == 0) return false;
-  const auto stretch =
-      clouds_->due(localiser_, sweeps_.any() ? BeamSources::Lidars : BeamSources::PlanarLasers);
+  const auto stretch = clouds_->due(localiser_, sweeps_.any() ? BeamSources::Lidars : BeamSources::PlanarLasers);
   if (!stretch) return false;
   const Clock::time_point begin = Clock::now();
   const urban_nav_core::OdometryChain& odometry = localiser_.odometry();

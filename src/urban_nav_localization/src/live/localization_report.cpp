@@ -65,7 +65,9 @@ urban_nav_live::StageReport makeReport(const StageState& state) {
   report.add("time of the last cloud query (ms)", localiser.cloud_query_ms);
   report.add("scans", localiser.scans);
   report.add("sweeps", localiser.sweeps);
-  report.add("lasers", !state.laser_pose_fault.empty() ? state.laser_pose_fault : localiser.scans + localiser.sweeps > 0 ? "ok" : "none");
+  report.add("lasers", !state.laser_pose_fault.empty()          ? state.laser_pose_fault
+                       : localiser.scans + localiser.sweeps > 0 ? "ok"
+                                                                : "none");
   report.add("stereo pairs", localiser.keyframes.pairs);
   report.add("stereo pairs without odometry", localiser.keyframes.without_odometry);
   report.add("images damaged", state.damaged_images);

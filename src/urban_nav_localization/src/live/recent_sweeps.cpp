@@ -36,13 +36,13 @@ std::vector<urban_nav_registration::LaserScans> RecentSweeps::lidars() const {
   std::vector<urban_nav_registration::LaserScans> lidars;
   for (const auto& each : lidars_) {
     if (!each.second.T_base_lidar) continue;
-    lidars.push_back({*each.second.T_base_lidar, [&sweeps = each.second.sweeps](StampNs first, StampNs last,
-                                                                                const auto& take) {
-                        for (const auto& [reference, packed] : sweeps) {
-                          if (reference < first || reference > last) continue;
-                          for (const Scan& ring : LidarSweep{"", "", reference, packed}.rings()) take(ring);
-                        }
-                      }});
+    lidars.push_back(
+        {*each.second.T_base_lidar, [&sweeps = each.second.sweeps](StampNs first, StampNs last, const auto& take) {
+           for (const auto& [reference, packed] : sweeps) {
+             if (reference < first || reference > last) continue;
+             for (const Scan& ring : LidarSweep{"", "", reference, packed}.rings()) take(ring);
+           }
+         }});
   }
   return lidars;
 }

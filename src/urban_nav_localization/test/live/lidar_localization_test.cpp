@@ -27,8 +27,8 @@ using urban_nav_store::MountedLidar;
 using urban_nav_store::Store;
 using urban_nav_store::TableStore;
 
-constexpr double kFrameDistance = 0.1;            // m
-constexpr StampNs kFramePeriod = 100'000'000;     // ns
+constexpr double kFrameDistance = 0.1;             // m
+constexpr StampNs kFramePeriod = 100'000'000;      // ns
 constexpr StampNs kLaterDay = 86'400'000'000'000;  // ns
 constexpr int kFramesOfADay = 280;
 const char* const kMappedDay = "0123456789abcdef0123";
@@ -36,7 +36,7 @@ const char* const kLidarFrame = "velodyne";
 
 Pose mounting() { return Pose(Eigen::Quaterniond::Identity(), {0.2, 0.0, 1.6}); }
 
-/// Poses of a drive through a courtyard, and of the way back, 1.5 m to the side.
+/// Poses of a drive through a courtyard, and of the return, 1.5 m to the side.
 Pose outward(int i) { return Pose(Eigen::Quaterniond::Identity(), {kFrameDistance * i - 14.0, -0.75, 0.0}); }
 Pose homeward(int i) {
   return Pose(Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ())),
@@ -61,7 +61,7 @@ Sweep sweepAt(const World& world, const Pose& T_world_base, StampNs stamp) {
   return sweep;
 }
 
-RelativePose stepOf(const Pose& before, const Pose& now, StampNs from) {
+RelativePose makeStep(const Pose& before, const Pose& now, StampNs from) {
   RelativePose step;
   step.from = from;
   step.to = from + kFramePeriod;
@@ -114,7 +114,7 @@ class LidarLocalization : public ::testing::Test {
       localiser_->addOdometry({stamp, homeward(0).inverse() * homeward(i)});
       localiser_->addSweep(kLidarFrame, sweepAt(world, homeward(i), stamp));
       for (const std::string& frame : localiser_->unplacedLasers()) localiser_->setLaser(frame, mounting());
-      if (i > 0) localiser_->addStep(stepOf(homeward(i - 1), homeward(i), stamp - kFramePeriod));
+      if (i > 0) localiser_->addStep(makeStep(homeward(i - 1), homeward(i), stamp - kFramePeriod));
       while (localiser_->work()) {
       }
       if (localized_after_ < 0.0 && localiser_->state().estimate.state == LocalizationState::Localized)
@@ -154,7 +154,7 @@ TEST_F(LidarLocalization, IsUnmappedInAnotherCourtyard) {
   EXPECT_EQ(localiser_->state().estimate.state, LocalizationState::Unmapped);
 }
 
-// Along a single front nothing tells where the robot is.
+// Along a single front the position is not determined.
 TEST_F(LidarLocalization, IsNotLocalizedAlongAFeaturelessFront) {
   map(urban_nav_core::testing::facade());
   drive(urban_nav_core::testing::facade(), 100);

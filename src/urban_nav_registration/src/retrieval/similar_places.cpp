@@ -9,7 +9,8 @@ namespace urban_nav_registration {
 
 namespace {
 
-constexpr std::size_t kByProfile = 60;   // places of the most similar profile, whose heights are compared at all headings
+constexpr std::size_t kByProfile =
+    60;  // places of the most similar profile, whose heights are compared at all headings
 constexpr std::size_t kByHeights = 10;   // of these, places whose walls are correlated
 constexpr double kLeastOverlap = 0.5;    // of the walls: half of them agree
 constexpr double kNearlyAsGood = 0.9;    // of the best overlap: also proposed, if elsewhere
@@ -21,16 +22,16 @@ constexpr double kSearchedRadius = 4.0;  // m between the two places: more than 
 std::optional<PlaceDescription> describePlace(const urban_nav_core::PointCloud& cloud, double voxel) {
   std::optional<CloudDescriptor> heights = CloudDescriptor::describe(cloud);
   if (!heights) return std::nullopt;
-  return PlaceDescription{*heights, extractVerticalStructure(makeSurfels(cloud, static_cast<float>(voxel)), kCoarseResolution)};
+  return PlaceDescription{*heights,
+                          extractVerticalStructure(makeSurfels(cloud, static_cast<float>(voxel)), kCoarseResolution)};
 }
 
 std::vector<std::size_t> SimilarPlaceFinder::candidates(const DescribedPlace& place) const {
   std::vector<std::pair<double, std::size_t>> ranked;
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const bool is_near =
-        places_[i].session == place.session && std::abs(place.distance - places_[i].distance) < CloudPlaces::kApartOnPath;
-    if (!is_near)
-      ranked.emplace_back(place.description.heights.profileDifference(places_[i].description.heights), i);
+    const bool is_near = places_[i].session == place.session &&
+                         std::abs(place.distance - places_[i].distance) < CloudPlaces::kApartOnPath;
+    if (!is_near) ranked.emplace_back(place.description.heights.profileDifference(places_[i].description.heights), i);
   }
   const auto keepFirst = [&ranked](std::size_t most) {
     const std::size_t count = std::min(most, ranked.size());

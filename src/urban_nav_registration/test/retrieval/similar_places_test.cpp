@@ -11,15 +11,16 @@ namespace urban_nav_registration {
 namespace {
 
 using urban_nav_core::PointCloud;
+using urban_nav_core::testing::courtyard;
 
-constexpr double kVoxel = 0.5;  // m
+constexpr double kPlaceVoxel = 0.5;  // m
 
 /// Surroundings in a courtyard of its own, seen from a position (m) with a heading (deg).
-PlaceDescription placeIn(std::uint64_t courtyard, double x = 0.0, double y = 0.0, double heading = 0.0) {
-  PointCloud cloud = urban_nav_core::testing::scan(urban_nav_core::testing::courtyard(courtyard),
-                                                   urban_nav_core::testing::stand(x, y, heading), {}, courtyard + 7);
-  for (Eigen::Vector3f& p : cloud.points) p.z() += 1.5F;  // base_link stands on the ground
-  return describePlace(cloud, kVoxel).value();
+PlaceDescription placeIn(std::uint64_t seed, double x = 0.0, double y = 0.0, double heading = 0.0) {
+  PointCloud cloud =
+      urban_nav_core::testing::scan(courtyard(seed), urban_nav_core::testing::stand(x, y, heading), {}, seed + 7);
+  for (Eigen::Vector3f& p : cloud.points) p.z() += 1.5F;  // base_link is on the ground
+  return describePlace(cloud, kPlaceVoxel).value();
 }
 
 TEST(SimilarPlaces, AreEarlierOnesFarAlongThePathAtAnyHeading) {
@@ -48,7 +49,7 @@ TEST(SimilarPlaces, TwoPlacesThatLookAlikeAreBothProposed) {
   EXPECT_EQ(similar[0].earlier + similar[1].earlier, 1U);
 }
 
-TEST(SimilarPlaces, ACloudThatShowsTooLittleIsNoPlace) { EXPECT_FALSE(describePlace({}, kVoxel)); }
+TEST(SimilarPlaces, ACloudThatShowsTooLittleIsNoPlace) { EXPECT_FALSE(describePlace({}, kPlaceVoxel)); }
 
 }  // namespace
 }  // namespace urban_nav_registration

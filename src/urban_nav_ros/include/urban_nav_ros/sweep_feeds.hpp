@@ -9,12 +9,12 @@
 
 namespace urban_nav_ros {
 
-/// Converts the clouds of several 3D LiDARs, which are told apart by the frames of their headers. Not thread-safe.
+/// Converts the clouds of several 3D LiDARs, which are distinguished by the frames of their headers. Not thread-safe.
 class SweepFeeds {
  public:
   struct Listener {
     std::function<void(const std::string& frame, const urban_nav_core::Sweep& sweep)> sweep;
-    std::function<void()> invalid;  ///< a cloud that is none of a LiDAR
+    std::function<void()> invalid;  ///< a cloud that no sweep can be read from
   };
 
   explicit SweepFeeds(Listener listener) : listener_(std::move(listener)) {}

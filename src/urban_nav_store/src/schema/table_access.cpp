@@ -135,9 +135,8 @@ std::vector<std::int64_t> TableAccess::lastKeys(const Table& table, const AnyRow
   std::vector<std::int64_t> values;
   if (!has(table)) return values;
   const std::string name = lastKeyName(table);
-  Statement statement =
-      connection_.prepare("SELECT " + name + " FROM " + table.name + " " + whereOthers(table) + " AND " + name +
-                          ">=? AND " + name + "<=? ORDER BY " + name);
+  Statement statement = connection_.prepare("SELECT " + name + " FROM " + table.name + " " + whereOthers(table) +
+                                            " AND " + name + ">=? AND " + name + "<=? ORDER BY " + name);
   KeyColumns key(statement, table.keys - 1);
   row.columns(key);
   const auto others = static_cast<int>(table.keys) - 1;

@@ -8,6 +8,7 @@
 #include "urban_nav_trust/depth_comparison.hpp"
 #include "urban_nav_trust/laser_mounting.hpp"
 #include "urban_nav_trust/session_comparisons.hpp"
+#include "urban_nav_trust/unavailable_tests.hpp"
 
 namespace urban_nav_trust {
 
@@ -17,10 +18,9 @@ namespace {
 
 constexpr urban_nav_core::StampNs kPeriod = 1'000'000'000;  // between estimates without a change
 
-/// Tests that require a whole session, or measurements that no live stage compares.
-constexpr const char* kOffline[] = {kDepthScaleTest,   kExchangeTest, kStereoClosureTest, kLaserClosureTest,
-                                    kGravityTest,      kLidarTest,    kLidarScaleTest,    kMountingTest,
-                                    "panorama_colour", "gps_position"};
+/// Tests that require a whole session.
+constexpr const char* kOffline[] = {kDepthScaleTest, kExchangeTest, kStereoClosureTest, kLaserClosureTest,
+                                    kGravityTest,    kLidarTest,    kLidarScaleTest,    kMountingTest};
 
 bool isNews(const LiveEstimate& before, const LiveEstimate& now) {
   return before.frame.state != now.frame.state || before.frame.tests != now.frame.tests ||
@@ -79,6 +79,7 @@ LiveEstimate LiveTrust::assess(const LivePose& pose) const {
   LiveEstimate estimate;
   estimate.results = monitor_.results();
   for (const char* name : kOffline) estimate.results.absent.push_back({name, "not compared on a running robot"});
+  for (const char* name : kUnavailableTests) estimate.results.absent.push_back({name, "there is no such test yet"});
   FrameEvidence evidence;
   evidence.stamp = pose.stamp;
   evidence.covariance = pose.T_odom_base.covariance.topLeftCorner<3, 3>();

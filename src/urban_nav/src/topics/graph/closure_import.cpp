@@ -35,7 +35,7 @@ Numbers toNumbers(const Closure& closure) {
 }
 
 /// Returns the closure of an edit for a row of closures.csv.
-MetricClosure toMetricClosure(const pose_graph::Edit& edit) {
+MetricClosure toEditedClosure(const pose_graph::Edit& edit) {
   MetricClosure closure;
   closure.a = {edit.a.session, edit.a.stamp};
   closure.b = {edit.b.session, edit.b.stamp};
@@ -148,7 +148,7 @@ void importClosures(GraphRun& run, pose_graph::EditedGraph& edited, const std::v
   edited.addOwnClosures();
   run.rejected_by_hand = edited.rejected();
   for (const pose_graph::EditedGraph::OwnClosure& own : edited.ownClosures()) {
-    run.closures.push_back(toMetricClosure(*own.edit));
+    run.closures.push_back(toEditedClosure(*own.edit));
     run.assessments.emplace_back();
     run.assessments.back().id = own.id;
   }

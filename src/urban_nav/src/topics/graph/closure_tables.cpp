@@ -24,7 +24,7 @@ std::string timeText(const GraphRun& graph, const std::string& session, StampNs 
 }
 
 /// Returns the evidence of the stage that measured a closure; empty if another one did.
-loop_metric::Evidence evidenceOf(const urban_nav_core::MetricClosure& closure) {
+loop_metric::Evidence readEvidence(const urban_nav_core::MetricClosure& closure) {
   const std::string_view text = loop_metric::evidenceIn(closure.evidence);
   return text.empty() ? loop_metric::Evidence() : loop_metric::parseEvidence(text);
 }
@@ -32,7 +32,7 @@ loop_metric::Evidence evidenceOf(const urban_nav_core::MetricClosure& closure) {
 std::string describeNearest(const loop_metric::Evidence& evidence) {
   const auto nearest = loop_metric::nearestTest(evidence);
   if (!nearest) return "";
-  return (nearest->passed ? "" : "failed: ") + describe(*nearest);
+  return (nearest->passed ? "" : "failed: ") + loop_metric::describe(*nearest);
 }
 
 std::string whyAnchor(std::int64_t number) { return "why-" + std::to_string(number); }
@@ -40,12 +40,12 @@ std::string whyAnchor(std::int64_t number) { return "why-" + std::to_string(numb
 }  // namespace
 
 std::vector<PageTable> closureTables(const GraphRun& graph) {
-  PageTable verdicts{"Closures",
-                     {"closure", "from (s)", "to (s)", "probability", "kind", "verdict", "weight", "nearest test",
-                      "reason"},
-                     {},
-                     "Times in seconds from the first pose of the session; closures.csv has the stamps. The nearest "
-                     "test is the one that was nearest to the opposite result."};
+  PageTable verdicts{
+      "Closures",
+      {"closure", "from (s)", "to (s)", "probability", "kind", "verdict", "weight", "nearest test", "reason"},
+      {},
+      "Times in seconds from the first pose of the session; closures.csv has the stamps. The nearest "
+      "test is the one that was nearest to the opposite result."};
   PageTable reasons{"Why",
                     {"closure", "tests"},
                     {},
@@ -55,7 +55,7 @@ std::vector<PageTable> closureTables(const GraphRun& graph) {
                         " are listed; all are in closures.csv.";
   for (std::size_t i = 0; i < std::min(kMostRows, graph.closures.size()); ++i) {
     const urban_nav_core::ClosureRow row = toRow(graph.closures[i], graph.assessments[i]);
-    const loop_metric::Evidence evidence = evidenceOf(graph.closures[i]);
+    const loop_metric::Evidence evidence = readEvidence(graph.closures[i]);
     const std::string tests = describe(evidence);
     const std::int64_t number = i < graph.numbers.size() ? graph.numbers[i] : 0;
     const std::string id = number > 0 ? std::to_string(number) : "";

@@ -9,6 +9,7 @@
 
 #include "base/plot.hpp"
 #include "pose_graph/selection_warnings.hpp"
+#include "topics/graph/closure_tables.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 
 namespace urban_nav {
@@ -18,7 +19,6 @@ using urban_nav_core::Trajectory;
 
 namespace {
 
-constexpr std::size_t kMostRows = 500;  // closures in the table
 constexpr double kOverconfident = 1.5;  // ratio of actual to stated standard deviation above which it is reported
 constexpr std::array<const char*, 4> kColours = {"a", "c", "d", "b"};
 
@@ -90,30 +90,6 @@ Plot costPlot(const GraphRun& graph) {
         {static_cast<double>(i + 1), std::log10(std::max(graph.relaxed.iterations[i].cost, 1e-12))});
   plot.series.push_back(series);
   return plot;
-}
-
-/// Returns seconds from the first pose of a session; the stamp for an unknown session.
-std::string timeText(const GraphRun& graph, const std::string& session, StampNs stamp) {
-  const pose_graph::Track* track = graph.graph.track(session);
-  if (track == nullptr || track->stamps.empty()) return session + " " + urban_nav_core::printStamp(stamp);
-  return session + " +" + urban_nav_core::formatNumber(urban_nav_core::secondsBetween(track->stamps.front(), stamp), 5);
-}
-
-PageTable closuresTable(const GraphRun& graph) {
-  PageTable table{"Closures",
-                  {"from (s)", "to (s)", "probability", "kind", "verdict", "weight", "reason"},
-                  {},
-                  graph.closures.size() > kMostRows
-                      ? "The first " + std::to_string(kMostRows) + " of " + std::to_string(graph.closures.size()) +
-                            "; all are in closures.csv."
-                      : "Times in seconds from the first pose of the session; closures.csv has the stamps."};
-  for (std::size_t i = 0; i < std::min(kMostRows, graph.closures.size()); ++i) {
-    const urban_nav_core::ClosureRow row = toRow(graph.closures[i], graph.assessments[i]);
-    table.rows.push_back({timeText(graph, row.a.session, row.a.stamp), timeText(graph, row.b.session, row.b.stamp),
-                          urban_nav_core::formatNumber(row.probability, 3), toString(row.method),
-                          toString(row.verdict.value()), urban_nav_core::formatNumber(row.weight, 3), row.reason});
-  }
-  return table;
 }
 
 std::optional<PageTable> errorsTable(const GraphRun& graph, const std::vector<SessionEvaluations>& evaluations) {
@@ -224,7 +200,8 @@ Section graphSection(const GraphRun& graph, const std::vector<const SessionOdome
     section.figures.push_back({"Cost over iterations", renderSvg(costPlot(graph), false),
                                "Sum of weighted squared residuals, from the initial guess.", false});
   if (const auto errors = errorsTable(graph, evaluations)) section.tables.push_back(*errors);
-  if (!graph.closures.empty()) section.tables.push_back(closuresTable(graph));
+  if (!graph.closures.empty())
+    for (PageTable& table : closureTables(graph)) section.tables.push_back(std::move(table));
   return section;
 }
 

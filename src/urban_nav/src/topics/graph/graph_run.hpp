@@ -41,6 +41,7 @@ struct GraphRun {
   /// One for each of `closures`; the id of one rejected by an edit is -1 - its index in rejected_by_hand.
   std::vector<ClosureAssessment> assessments;
   std::vector<pose_graph::Closure> rejected_by_hand;  ///< not part of the graph
+  std::vector<std::int64_t> numbers;  ///< IDs of `closures` in the store, 0: none; empty before they are stored
   std::vector<std::string> warnings;
   double ms = 0.0, ms_covariances = 0.0;  ///< durations of the relaxation and of the marginal covariances
   PlaneUse planes;

@@ -136,6 +136,7 @@ class GraphStage final : public Stage {
       for (std::size_t s = 0; s < runs.size(); ++s) context.stereo_only.push_back(without_icp.trajectory(s));
     }
     exportGraph(*context.store, context.ids(), *run_, context.previous.revision);
+    run_->numbers = readClosureNumbers(*context.store, context.ids(), *run_);
     forgetBase(*context.store);
     context.closures = run_->closures;
     context.assessments = run_->assessments;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "pose_graph/stored_graph.hpp"
 #include "topics/graph/graph_g2o.hpp"
@@ -32,13 +33,12 @@ std::string toEvidence(const MetricClosure& closure, const ClosureAssessment& as
   return printClosureRows({closure}, {assessment}) + closure.evidence;
 }
 
-/// Stores a candidate without a transform, for its evidence only.
-void putRejected(Store& store, const GraphRun& run, const std::vector<SessionId>& ids, const MetricClosure& closure,
-                 const ClosureAssessment& assessment) {
+/// Returns the edge of a candidate without a transform; nullopt if it concerns another session.
+std::optional<Edge> rejectedEdge(const GraphRun& run, const std::vector<SessionId>& ids, const MetricClosure& closure) {
   const auto known = [&](const std::string& name) {
     return std::find(run.sessions.begin(), run.sessions.end(), name) != run.sessions.end();
   };
-  if (!known(closure.a.session) || !known(closure.b.session)) return;
+  if (!known(closure.a.session) || !known(closure.b.session)) return std::nullopt;
   Edge edge;
   edge.a = {toId(run, ids, closure.a.session), closure.a.stamp};
   edge.b = {toId(run, ids, closure.b.session), closure.b.stamp};
@@ -47,9 +47,25 @@ void putRejected(Store& store, const GraphRun& run, const std::vector<SessionId>
   edge.measured.T_a_b = closure.measured.T_a_b;
   edge.weight = 0.0;
   edge.verdict = urban_nav_core::ClosureVerdict::Rejected;
-  edge.reason = assessment.reason;
-  store.graph().put(edge);
-  store.graph().putEvidence(edge, toEvidence(closure, assessment));
+  return edge;
+}
+
+/// Stores a candidate without a transform, for its evidence only.
+void putRejected(Store& store, const GraphRun& run, const std::vector<SessionId>& ids, const MetricClosure& closure,
+                 const ClosureAssessment& assessment) {
+  std::optional<Edge> edge = rejectedEdge(run, ids, closure);
+  if (!edge) return;
+  edge->reason = assessment.reason;
+  store.graph().put(*edge);
+  store.graph().putEvidence(*edge, toEvidence(closure, assessment));
+}
+
+/// Returns the edge of a closure of the graph.
+Edge graphEdge(const GraphRun& run, const std::vector<SessionId>& ids, const pose_graph::Closure& closure) {
+  Edge edge = pose_graph::toEdge(closure);
+  edge.a.session = toId(run, ids, closure.a.session);
+  edge.b.session = toId(run, ids, closure.b.session);
+  return edge;
 }
 
 template <typename IsRemoved>
@@ -87,9 +103,7 @@ void storeRelaxation(Store& store, const std::vector<SessionId>& ids, const Grap
   std::map<pose_graph::ClosureId, std::size_t> index_of;
   for (std::size_t i = 0; i < run.closures.size(); ++i) index_of[run.assessments[i].id] = i;
   const auto put = [&](pose_graph::ClosureId id, const pose_graph::Closure& closure) {
-    Edge edge = pose_graph::toEdge(closure);
-    edge.a.session = toId(run, ids, closure.a.session);
-    edge.b.session = toId(run, ids, closure.b.session);
+    const Edge edge = graphEdge(run, ids, closure);
     store.graph().put(edge);
     if (const auto index = index_of.find(id); index != index_of.end())
       store.graph().putEvidence(edge, toEvidence(run.closures[index->second], run.assessments[index->second]));
@@ -107,6 +121,22 @@ void exportGraph(Store& store, const std::vector<SessionId>& ids, const GraphRun
     if (run.assessments[i].id == 0 && isMeasured(run.closures[i]))
       putRejected(store, run, ids, run.closures[i], run.assessments[i]);
   urban_nav_store::storeEdgeNumbers(store);
+}
+
+std::vector<std::int64_t> readClosureNumbers(Store& store, const std::vector<SessionId>& ids, const GraphRun& run) {
+  const std::map<urban_nav_store::EdgeKey, std::int64_t> known = urban_nav_store::readEdgeNumbers(store);
+  std::vector<std::int64_t> numbers(run.closures.size(), 0);
+  for (std::size_t i = 0; i < run.closures.size(); ++i) {
+    const pose_graph::ClosureId id = run.assessments[i].id;
+    std::optional<Edge> edge;
+    if (id == 0) edge = rejectedEdge(run, ids, run.closures[i]);
+    else if (id < 0) edge = graphEdge(run, ids, run.rejected_by_hand.at(static_cast<std::size_t>(-1 - id)));
+    else edge = graphEdge(run, ids, run.graph.closures().at(id));
+    if (!edge) continue;
+    if (const auto number = known.find(urban_nav_store::edgeKey(*edge)); number != known.end())
+      numbers[i] = number->second;
+  }
+  return numbers;
 }
 
 }  // namespace urban_nav

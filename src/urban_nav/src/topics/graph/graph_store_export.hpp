@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "topics/graph/graph_run.hpp"
@@ -20,5 +21,10 @@ void storeRelaxation(urban_nav_store::Store& store, const std::vector<urban_nav_
 /// `revision`. The evidence of a closure is its row of closures.csv. Does not commit.
 void exportGraph(urban_nav_store::Store& store, const std::vector<urban_nav_store::SessionId>& ids, const GraphRun& run,
                  std::int64_t revision = 0);
+
+/// Returns the permanent number in the store of each of run.closures, its ID in `edge` and `why`; 0 for a closure that
+/// the store does not hold. `ids`: store keys of run.sessions. Call after exportGraph().
+std::vector<std::int64_t> readClosureNumbers(urban_nav_store::Store& store,
+                                             const std::vector<urban_nav_store::SessionId>& ids, const GraphRun& run);
 
 }  // namespace urban_nav

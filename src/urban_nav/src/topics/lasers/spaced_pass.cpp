@@ -20,10 +20,7 @@ constexpr std::uint32_t kSpacedPassVersion = 3;
 
 SpacedPass::SpacedPass(std::string name, TravelSpacing::Spacing spacing, MapContext& context,
                        const Stage::SessionStart& start)
-    : name_(std::move(name)),
-      spacing_(spacing),
-      store_(*context.store),
-      session_(context.sessions[start.session]) {
+    : name_(std::move(name)), spacing_(spacing), store_(*context.store), session_(context.sessions[start.session]) {
   if (start.checkpoint) unpackState(name_.c_str(), kSpacedPassVersion, *start.checkpoint, state_);
 }
 

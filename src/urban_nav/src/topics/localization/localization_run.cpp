@@ -53,15 +53,15 @@ class CloudComparisons {
   bool arePossible() const { return search_ != nullptr; }
 
   /// `alone`: no keyframes are compared, whose misses count otherwise.
-  void compareWith(urban_nav_localization::Localiser& localiser, bool alone, LocalizationRun& made) {
+  void compareWith(urban_nav_localization::Localiser& localiser, bool alone, LocalizationRun& result) {
     const auto stretch = search_ ? search_->due(localiser, sources_) : std::nullopt;
     if (!stretch) return;
     if (search_->read() == 0) readMap();
-    ++made.cloud_looks;
+    ++result.cloud_looks;
     const bool is_match =
         search_->query(*stretch, urban_nav_registration::localCloud(odometry_, stretch->at, stretch->way, scans_),
                        urban_nav_registration::deformationSigma(odometry_, stretch->at, stretch->way), localiser);
-    if (is_match) ++made.cloud_sightings;
+    if (is_match) ++result.cloud_sightings;
     else if (alone) search_->addMiss(*stretch, localiser);
   }
 
@@ -100,12 +100,12 @@ class KeyframeComparisons {
   bool arePossible() const { return search_ != nullptr; }
   bool hasKeyframes() const { return !stamps_.empty(); }
 
-  void compareWith(urban_nav_localization::Localiser& localiser, StampNs stamp, LocalizationRun& made) {
+  void compareWith(urban_nav_localization::Localiser& localiser, StampNs stamp, LocalizationRun& result) {
     if (!search_ || !std::binary_search(stamps_.begin(), stamps_.end(), stamp)) return;
     const Clock::time_point begin = Clock::now();
-    ++made.looks;
+    ++result.looks;
     if (const auto stored = own_.keyframes().get(id_, urban_nav_core::frames::kStereoLeft, stamp))
-      made.sightings += search_->query(urban_nav_registration::toKeyframe(*stored, ""), localiser) ? 1 : 0;
+      result.sightings += search_->query(urban_nav_registration::toKeyframe(*stored, ""), localiser) ? 1 : 0;
     ms_.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
   }
   double medianMs() const { return urban_nav_core::quantile(ms_, 0.5); }
@@ -120,44 +120,44 @@ class KeyframeComparisons {
 
 /// Fills T_map_base. Frames before the first known one, and later unknown ones, are placed by odometry relative to the
 /// nearest known one.
-void placeAllFrames(const SessionOdometry& run, LocalizationRun& made) {
+void placeAllFrames(const SessionOdometry& run, LocalizationRun& result) {
   std::optional<Pose> T_map_odom;
-  for (std::size_t i = 0; i < made.frames.size() && !T_map_odom; ++i)
-    if (made.frames[i].state == LocalizationState::Localized)
-      T_map_odom = made.frames[i].T_map_base->pose * run.settled[i].T_odom_base.pose.inverse();
+  for (std::size_t i = 0; i < result.frames.size() && !T_map_odom; ++i)
+    if (result.frames[i].state == LocalizationState::Localized)
+      T_map_odom = result.frames[i].T_map_base->pose * run.settled[i].T_odom_base.pose.inverse();
   if (!T_map_odom) {
-    made.warnings.push_back("the session was not localised in the map: trajectory.tum follows odometry");
+    result.warnings.push_back("the session was not localised in the map: trajectory.tum follows odometry");
     return;
   }
-  for (std::size_t i = 0; i < made.frames.size(); ++i) {
-    if (made.frames[i].state == LocalizationState::Localized)
-      T_map_odom = made.frames[i].T_map_base->pose * run.settled[i].T_odom_base.pose.inverse();
-    made.T_map_base.append(run.settled[i].stamp, *T_map_odom * run.settled[i].T_odom_base.pose);
+  for (std::size_t i = 0; i < result.frames.size(); ++i) {
+    if (result.frames[i].state == LocalizationState::Localized)
+      T_map_odom = result.frames[i].T_map_base->pose * run.settled[i].T_odom_base.pose.inverse();
+    result.T_map_base.append(run.settled[i].stamp, *T_map_odom * run.settled[i].T_odom_base.pose);
   }
 }
 
 /// Warns where one of two kinds of comparison is impossible; throws UserError if both are.
 void explainMissing(const KeyframeComparisons& keyframes, const CloudComparisons& clouds, const Store& frozen,
-                    LocalizationRun& made) {
+                    LocalizationRun& result) {
   if (keyframes.arePossible()) return;
-  const std::string reason = keyframes.hasKeyframes() ? "the map " + frozen.path() + " has no keyframes"
-                                                      : "the session has no stereo images";
+  const std::string reason =
+      keyframes.hasKeyframes() ? "the map " + frozen.path() + " has no keyframes" : "the session has no stereo images";
   if (!clouds.arePossible())
     throw urban_nav_core::UserError(
         "--localise", reason + ", and the two have no scans or sweeps of lasers in common",
         "a map and a session with stereo images in both, or with lasers in both (stage lasers)");
-  made.warnings.push_back("localised by the clouds of lasers alone: " + reason);
+  result.warnings.push_back("localised by the clouds of lasers alone: " + reason);
 }
 
 }  // namespace
 
 LocalizationRun runLocalization(const urban_nav_localization::Parameters& parameters, Store& frozen, Store& own,
                                 const urban_nav_store::SessionId& id, const SessionOdometry& run, Console& console) {
-  LocalizationRun made;
+  LocalizationRun result;
   const urban_nav_localization::FrozenMap map(frozen);
   KeyframeComparisons keyframes(parameters, map, frozen, own, id, run, console);
   CloudComparisons clouds(parameters, map, frozen, own, id, run, console);
-  explainMissing(keyframes, clouds, frozen, made);
+  explainMissing(keyframes, clouds, frozen, result);
   urban_nav_localization::Localiser localiser(parameters);
   Progress progress(console, "localise", "frames", static_cast<std::int64_t>(run.settled.size()));
   std::size_t known = 0;
@@ -165,24 +165,25 @@ LocalizationRun runLocalization(const urban_nav_localization::Parameters& parame
     const SmoothedFrame& frame = run.settled[i];
     if (i > 0) {
       localiser.addOdometry(frame.from_previous);
-      keyframes.compareWith(localiser, frame.stamp, made);
+      keyframes.compareWith(localiser, frame.stamp, result);
     }
-    clouds.compareWith(localiser, !keyframes.arePossible(), made);
+    clouds.compareWith(localiser, !keyframes.arePossible(), result);
     LocalizationEstimate located = localiser.at(frame.stamp);
     located.stamp = frame.stamp;
     if (located.state == LocalizationState::Localized) {
       ++known;
-      if (made.first_known_s < 0.0)
-        made.first_known_s = urban_nav_core::secondsBetween(run.settled.front().stamp, frame.stamp);
+      if (result.first_known_s < 0.0)
+        result.first_known_s = urban_nav_core::secondsBetween(run.settled.front().stamp, frame.stamp);
     }
-    made.frames.push_back(std::move(located));
+    result.frames.push_back(std::move(located));
     progress.update(static_cast<std::int64_t>(i + 1));
   }
   progress.finish(static_cast<std::int64_t>(run.settled.size()));
-  made.known_share = made.frames.empty() ? 0.0 : static_cast<double>(known) / static_cast<double>(made.frames.size());
-  made.ms_median = keyframes.medianMs();
-  placeAllFrames(run, made);
-  return made;
+  result.known_share =
+      result.frames.empty() ? 0.0 : static_cast<double>(known) / static_cast<double>(result.frames.size());
+  result.ms_median = keyframes.medianMs();
+  placeAllFrames(run, result);
+  return result;
 }
 
 namespace {

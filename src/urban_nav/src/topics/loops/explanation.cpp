@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/plot.hpp"
+#include "loop_metric/evidence_text.hpp"
 #include "loop_metric/place/stored_place_data.hpp"
 #include "map/previous_sessions.hpp"
 #include "topics/loops/closure_picture.hpp"
@@ -78,27 +79,11 @@ PageTable makeTable(const std::string& title, const std::vector<ClosureTest>& te
   return table;
 }
 
-std::string makeTitle(const Evidence::Try& each, std::size_t number, std::size_t of) {
-  std::string title = each.method == ClosureMethod::Icp ? "Clouds of the lasers" : "Two views";
-  if (of > 1) title += " (" + std::to_string(number + 1) + " of " + std::to_string(of) + " tries)";
-  return title;
-}
-
-std::string toLines(const std::vector<ClosureTest>& tests) {
-  std::string text;
-  for (const ClosureTest& test : tests) {
-    const std::vector<std::string> row = toRow(test);
-    text += "    " + row[3] + "  " + row[0] + " = " + row[1] + " (" + row[2] + ")\n";
-  }
-  return text;
-}
-
 constexpr const char* kHowToReadViews =
     "Lines: matches, green inliers and red outliers; grey: features without a match.";
 constexpr const char* kHowToReadClouds =
     "Laser points around the first moment (red) and the second (blue): placed by odometry, or centred on each other "
     "without it, and as aligned. Purple: coinciding points. Dots: positions of the robot.";
-constexpr const char* kGate = "Against odometry and its neighbours";
 constexpr const char* kNoEvidence = "The store has no evidence for it: it was given, or measured by another program.";
 constexpr const char* kPlaneEvidence =
     "Planes around both moments, measured by the lasers in two passes; quality.csv has the distance between the "
@@ -131,12 +116,7 @@ std::string explain(const StoredClosure& closure) {
         "  probability that the places are the same: " + urban_nav_core::formatNumber(*closure.probability, 4) + "\n";
   if (const std::string transform = formatTransform(closure); !transform.empty()) text += "  " + transform + "\n";
   const Evidence& evidence = closure.evidence;
-  for (std::size_t i = 0; i < evidence.tries.size(); ++i) {
-    const Evidence::Try& each = evidence.tries[i];
-    text += "  " + makeTitle(each, i, evidence.tries.size()) + ": " + toString(each.verdict) +
-            (each.sentence.empty() ? "" : ": " + each.sentence) + "\n" + toLines(each.tests);
-  }
-  if (!evidence.gate.empty()) text += "  " + std::string(kGate) + ":\n" + toLines(evidence.gate);
+  text += describe(evidence);
   if (evidence.tries.empty() && evidence.gate.empty()) text += "  " + sentenceWithoutEvidence(closure) + "\n";
   return text;
 }
@@ -158,7 +138,7 @@ Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, 
   for (std::size_t i = 0; i < evidence.tries.size(); ++i) {
     const Evidence::Try& each = evidence.tries[i];
     Section section{"try" + std::to_string(i + 1),
-                    makeTitle(each, i, evidence.tries.size()),
+                    tryTitle(evidence, i),
                     toString(each.verdict) + (each.sentence.empty() ? "" : ": " + each.sentence),
                     {},
                     {},
@@ -169,7 +149,8 @@ Page explainOnPage(const StoredClosure& closure, urban_nav_store::Store& store, 
     }
     page.sections.push_back(std::move(section));
   }
-  if (!evidence.gate.empty()) page.sections.push_back({"gate", kGate, "", {}, {}, {makeTable("Tests", evidence.gate)}});
+  if (!evidence.gate.empty())
+    page.sections.push_back({"gate", loop_metric::kGateTitle, "", {}, {}, {makeTable("Tests", evidence.gate)}});
   if (evidence.tries.empty() && evidence.gate.empty())
     page.sections.push_back({"none", "Evidence", sentenceWithoutEvidence(closure), {}, {}, {}});
   page.footer = "urban_nav why, from the evidence in " + store.path() + ".";

@@ -7,6 +7,7 @@
 #include "topics/trust/closure_differences.hpp"
 #include "topics/trust/depth_matches.hpp"
 #include "topics/trust/session_estimates.hpp"
+#include "topics/trust/tests_not_run.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/stored_test.hpp"
 #include "urban_nav_trust/depth_comparison.hpp"
@@ -148,18 +149,6 @@ std::vector<FrameEvidence> listFrames(const SessionOdometry& run, const SessionT
   return frames;
 }
 
-/// Lists the measurements that are missing in the sessions of this run.
-void addMissingInputs(const MapContext& context, TestResults& all) {
-  const auto has = [&](const std::string& role) {
-    return std::any_of(context.sessions.begin(), context.sessions.end(), [&](const MapSession& session) {
-      return std::any_of(session.info.inputs.begin(), session.info.inputs.end(),
-                         [&](const auto& input) { return input.role.rfind(role, 0) == 0; });
-    });
-  };
-  if (!has("panorama")) all.absent.push_back({"panorama_colour", "no panoramas"});
-  if (!has("gps")) all.absent.push_back({"gps_position", "no GPS fixes"});
-}
-
 bool hasClosures(const MapContext& context) {
   return std::any_of(context.assessments.begin(), context.assessments.end(), [](const ClosureAssessment& closure) {
     return closure.verdict == urban_nav_core::ClosureVerdict::Accepted;
@@ -179,7 +168,8 @@ TrustRun assessTrust(MapContext& context, const urban_nav_trust::Parameters& par
     markTestsOfMap(poses_by_lasers, by_session.back());
     append(by_session.back(), result.results);
   }
-  addMissingInputs(context, result.results);
+  for (urban_nav_trust::AbsentMeasurement& absent : testsNotRun(context))
+    result.results.absent.push_back(std::move(absent));
   const bool spreads = hasClosures(context);
   for (std::size_t first = 0; first < sessions.size(); ++first)
     for (std::size_t s = first; s < sessions.size(); ++s) {

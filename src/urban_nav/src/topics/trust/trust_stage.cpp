@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <optional>
 
+#include "pose_graph/parameters.hpp"
 #include "topics/trust/trust.hpp"
 #include "topics/trust/trust_files.hpp"
 #include "topics/trust/trust_report.hpp"
@@ -12,7 +13,10 @@ namespace {
 class TrustStage final : public Stage {
  public:
   Description describe() const override { return {"trust", "trust", true, false, false, {"trust.csv"}}; }
-  void addTables(ParameterSet& parameters) const override { parameters.add(urban_nav_trust::table()); }
+  void addTables(ParameterSet& parameters) const override {
+    parameters.add(urban_nav_trust::table());
+    parameters.add(pose_graph::table());
+  }
   Selection select(const MapOptions& options) const override {
     if (!options.localise.empty()) return {false, "--localise", {}};
     return Stage::select(options);

@@ -47,8 +47,8 @@ class LidarSession : public ::testing::Test {
     const auto trueAt = [&](urban_nav_core::StampNs stamp) { return truth[truth.nearest(stamp)].pose; };
     double worst = 0.0;
     for (const urban_nav_core::StampedPose& pose : trajectory)
-      worst = std::max(worst, distanceBetween(T_map_origin.inverse() * pose.pose,
-                                              trueAt(origin).inverse() * trueAt(pose.stamp)));
+      worst = std::max(
+          worst, distanceBetween(T_map_origin.inverse() * pose.pose, trueAt(origin).inverse() * trueAt(pose.stamp)));
     return worst;
   }
 

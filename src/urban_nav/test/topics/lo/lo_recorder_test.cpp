@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "map/trajectory_files.hpp"
@@ -99,6 +100,36 @@ TEST(LoRecorder, OtherLidarsAndSweepsWithoutTimesAreNamed) {
   EXPECT_NE(run.faults[0].find("3 sweeps of other LiDARs"), std::string::npos) << run.faults[0];
   EXPECT_NE(run.faults[1].find("not deskewed"), std::string::npos) << run.faults[1];
   EXPECT_EQ(run.frames.size(), 3U);
+}
+
+TEST(LoRecorder, APlanarLaserGivesPlanarMotionAndContinuesBitByBit) {
+  const auto makeScan = [](double x, int number) {
+    urban_nav_input::SweepInput input = makeSweep(x, number);
+    input.role = "scan";
+    input.is_planar = true;
+    auto& beams = input.sweep.beams;
+    beams.erase(std::remove_if(beams.begin(), beams.end(),
+                               [](const urban_nav_core::Beam& beam) { return std::abs(beam.direction.z()) > 1e-6F; }),
+                beams.end());
+    return input;
+  };
+  LoRun whole, part, rest;
+  LoRecorder recorder(laser_odometry::Parameters(), someInfo(), whole);
+  LoRecorder first(laser_odometry::Parameters(), someInfo(), part);
+  for (int i = 0; i < 3; ++i) {
+    recorder.process(makeScan(0.05 * i, i));
+    first.process(makeScan(0.05 * i, i));
+  }
+  LoRecorder second(laser_odometry::Parameters(), someInfo(), rest, first.state());
+  for (int i = 3; i < 6; ++i) {
+    recorder.process(makeScan(0.05 * i, i));
+    second.process(makeScan(0.05 * i, i));
+  }
+  EXPECT_TRUE(rest.is_planar);
+  EXPECT_EQ(sweepsCsv(rest), sweepsCsv(whole));
+  EXPECT_NE(sweepsCsv(whole).find(",OK,planar,"), std::string::npos) << sweepsCsv(whole);
+  EXPECT_NEAR(whole.settled.back().T_odom_base.pose.t().x(), 0.25, 0.01);
+  EXPECT_EQ(packLoRun(*unpackLoRun(packLoRun(whole))), packLoRun(whole));
 }
 
 TEST(LoRecorder, SweepsWithoutReturnsAreRowsOfTheFile) {

@@ -23,7 +23,7 @@ class TravelSpacing {
 
   void setSpacing(Spacing spacing) { spacing_ = spacing; }
   bool any() const { return any_; }
-  /// Returns whether data are selected, which it then remembers. `T_odom_base`: newest pose; nullopt: none yet.
+  /// Returns whether data are selected, which then are the last ones. `T_odom_base`: newest pose; nullopt: none yet.
   bool takes(StampNs stamp, const std::optional<Pose>& T_odom_base);
 
   /// Reads or writes the state, without the spacing.

@@ -13,8 +13,8 @@ namespace urban_nav_registration {
 
 /// How places are described by local clouds and proposed as closures.
 struct CloudPlaces {
-  static constexpr double kSpacing = 3.0;      ///< m of path between places: half the width of a lane and more
-  static constexpr double kHalfLength = 2.0;   ///< m of path before and after a place, whose sweeps describe it
+  static constexpr double kSpacing = 3.0;       ///< m of path between places: half the width of a lane and more
+  static constexpr double kHalfLength = 2.0;    ///< m of path before and after a place, whose sweeps describe it
   static constexpr double kApartOnPath = 20.0;  ///< m of path between two places of a session that may be one
 };
 
@@ -24,8 +24,8 @@ struct PlaceDescription {
   CloudDescriptor heights;
   VerticalStructure walls;
 };
-/// Describes a local cloud in base_link, m. `voxel`: edge of the cells of its surfels, m. nullopt if it shows too little
-/// (CloudDescriptor::describe). Thread-safe.
+/// Describes a local cloud in base_link, m. `voxel`: edge of the cells of its surfels, m. nullopt if it shows too
+/// little (CloudDescriptor::describe). Thread-safe.
 std::optional<PlaceDescription> describePlace(const urban_nav_core::PointCloud& cloud, double voxel);
 
 /// One of several places, in the order of their times.

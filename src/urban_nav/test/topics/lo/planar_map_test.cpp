@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `map` of a recording that holds nothing but the scans of a planar laser.
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <sensor_msgs/LaserScan.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <cmath>
+
+#include "base/parameters.hpp"
+#include "commands/stages.hpp"
+#include "map/map_pipeline.hpp"
+#include "urban_nav_core/io/tum.hpp"
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/testing/bags.hpp"
+#include "urban_nav_input/testing/folders.hpp"
+#include "urban_nav_ros/extrinsics.hpp"
+
+namespace urban_nav {
+namespace {
+
+using urban_nav_core::Pose;
+using urban_nav_core::Vector3d;
+using urban_nav_input::testing::readFile;
+using urban_nav_input::testing::TemporaryFolder;
+
+constexpr double kRoomStart = 1.5e9, kTurnPeriod = 0.1;  // s
+constexpr int kTurns = 60, kBeamsOfTurn = 720;
+
+/// Drives an arc of 0.6 m/s and 0.15 rad/s.
+Pose robotAt(double t) {
+  urban_nav_core::Vector6d twist;
+  twist << 0.6, 0, 0, 0, 0, 0.15;
+  return Pose(Eigen::Quaterniond::Identity(), {-3.0, -1.0, 0.0}) * urban_nav_core::expSe3(t * twist);
+}
+
+/// Distance to the walls of a room of 12 x 9 m, or to a box in it, along a unit direction.
+double rangeInRoom(const Vector3d& p, const Vector3d& d) {
+  const double x = d.x() > 0.0 ? (6.0 - p.x()) / d.x() : (-6.0 - p.x()) / d.x();
+  const double y = d.y() > 0.0 ? (4.5 - p.y()) / d.y() : (-4.5 - p.y()) / d.y();
+  const double ax = (2.0 - p.x()) / d.x(), bx = (3.0 - p.x()) / d.x(), ay = (2.5 - p.y()) / d.y(),
+               by = (3.5 - p.y()) / d.y();
+  const double enter = std::max(std::min(ax, bx), std::min(ay, by));
+  const double leave = std::min(std::max(ax, bx), std::max(ay, by));
+  return enter > 0.0 && enter < leave ? enter : std::min(x, y);
+}
+
+std::string writeRoom(const TemporaryFolder& folder, const Pose& T_base_laser) {
+  const std::string path = folder.file("room.bag");
+  rosbag::Bag bag(path, rosbag::bagmode::Write);
+  tf2_msgs::TFMessage places;
+  places.transforms.push_back(urban_nav_ros::toStaticTransform("base_link", "laser", T_base_laser));
+  bag.write("/tf_static", ros::Time(kRoomStart), places);
+  for (int i = 0; i < kTurns; ++i) {
+    sensor_msgs::LaserScan scan;
+    scan.header.stamp = ros::Time(kRoomStart + kTurnPeriod * i);
+    scan.header.frame_id = "laser";
+    scan.angle_min = static_cast<float>(-M_PI);
+    scan.angle_increment = static_cast<float>(2.0 * M_PI / kBeamsOfTurn);
+    scan.angle_max = scan.angle_min + scan.angle_increment * (kBeamsOfTurn - 1);
+    scan.time_increment = static_cast<float>(kTurnPeriod / kBeamsOfTurn);
+    scan.scan_time = static_cast<float>(kTurnPeriod);
+    scan.range_min = 0.1F;
+    scan.range_max = 30.0F;
+    for (int k = 0; k < kBeamsOfTurn; ++k) {
+      const double angle = -M_PI + 2.0 * M_PI * k / kBeamsOfTurn;
+      const Pose T = robotAt(kTurnPeriod * (i + static_cast<double>(k) / kBeamsOfTurn)) * T_base_laser;
+      const Vector3d d = T.q() * Vector3d(std::cos(angle), std::sin(angle), 0.0);
+      scan.ranges.push_back(static_cast<float>(rangeInRoom(T.t(), d) + 0.004 * std::sin(37.0 * k + 11.0 * i)));
+    }
+    bag.write("/scan", scan.header.stamp + ros::Duration(kTurnPeriod), scan);
+  }
+  return path;
+}
+
+void mapRoom(const std::string& bag, const std::string& out, int threads, const std::vector<std::string>& stages) {
+  const Arguments none({}, addStageTables);
+  MapOptions request{{bag}, out, stages, "", "", "", {}, loadParameters(none), threads};
+  request.odometry = OdometryOption::Laser;
+  Console console;
+  runMap(request, makeStages(), console);
+}
+
+TEST(PlanarMap, ARoomIsMappedFromTheScansOfAHorizontalLaser) {
+  const TemporaryFolder folder;
+  const std::string bag = writeRoom(folder, Pose(urban_nav_core::expSo3({0.0, 0.0, 0.4}), {0.2, 0.05, 0.3}));
+  mapRoom(bag, folder.file("out"), 1, {});
+  const urban_nav_core::Trajectory trajectory = urban_nav_core::readTum(folder.file("out/trajectory.tum"));
+  ASSERT_EQ(trajectory.size(), static_cast<std::size_t>(kTurns));
+  const auto truth = [](urban_nav_core::StampNs stamp) {
+    return robotAt(1e-9 * static_cast<double>(stamp - static_cast<urban_nav_core::StampNs>(1e9 * kRoomStart)));
+  };
+  const Pose expected = truth(trajectory[0].stamp).inverse() * truth(trajectory[kTurns - 1].stamp);
+  EXPECT_LT(distanceBetween(trajectory[kTurns - 1].pose, expected), 0.01);
+  EXPECT_LT(urban_nav_core::angleBetween(trajectory[kTurns - 1].pose, expected), 0.003);
+  EXPECT_NE(readFile(folder.file("out/sweeps.csv")).find(",OK,planar,"), std::string::npos);
+  const std::string summary = readFile(folder.file("out/summary.json"));
+  EXPECT_NE(summary.find("planar motion only: height, roll and pitch are assumed"), std::string::npos);
+  EXPECT_NE(summary.find("\"role\": \"scan\""), std::string::npos);
+  EXPECT_FALSE(readFile(folder.file("out/map.ply")).empty());
+
+  mapRoom(bag, folder.file("two"), 2, {});
+  for (const char* name : {"trajectory.tum", "covariance.csv", "sweeps.csv", "map.ply"})
+    EXPECT_EQ(readFile(folder.file("two/") + name), readFile(folder.file("out/") + name)) << name;
+}
+
+TEST(PlanarMap, AVerticalLaserIsRefusedWithTheReason) {
+  const TemporaryFolder folder;
+  const std::string bag = writeRoom(folder, Pose(urban_nav_core::expSo3({M_PI / 2.0, 0.0, 0.0}), {0.0, 0.0, 0.3}));
+  try {
+    mapRoom(bag, folder.file("out"), 1, {"lo"});
+    FAIL();
+  } catch (const urban_nav_core::DataError& error) {
+    EXPECT_NE(std::string(error.what()).find("/scan by 90 deg"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("none of their scans measures again"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace urban_nav
