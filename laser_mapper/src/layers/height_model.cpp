@@ -7,7 +7,8 @@ namespace laser_mapper {
 
 namespace {
 
-constexpr std::uint32_t kFewestAbove = 2;  // points: a single one is not an obstacle
+constexpr std::uint16_t kFewestAbove = 2;  // points: a single one is not an obstacle
+constexpr std::uint16_t kMostCounted = 65535;
 
 }  // namespace
 
@@ -17,16 +18,16 @@ void HeightModel::add(const std::vector<MapPoint>& points) {
   for (const MapPoint& point : points) {
     const auto at = ground_.index(point.p.x(), point.p.y());
     if (!at) continue;
-    const float ground = ground_.ground(*at);
-    if (point.p.z() - ground > tallest) continue;
+    if (point.p.z() - ground_.ground(*at) > tallest) continue;
     Cell& cell = cells_[*at];
-    if (point.p.z() - *ground_.lowest(*at) <= step) {
-      cell.sum += static_cast<double>(point.p.z() - ground);
+    const float above_lowest = point.p.z() - *ground_.lowest(*at);
+    if (above_lowest > step) {
+      cell.highest = cell.above == 0 ? point.p.z() : std::max(cell.highest, point.p.z());
+      if (cell.above < kMostCounted) ++cell.above;
+    } else if (cell.near < kMostCounted) {
+      cell.sum += above_lowest;
       ++cell.near;
-      continue;
     }
-    cell.highest = cell.above == 0 ? point.p.z() : std::max(cell.highest, point.p.z());
-    ++cell.above;
   }
 }
 
@@ -41,7 +42,7 @@ Raster HeightModel::elevation() const {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = cells_[i];
     if (cell.above >= kFewestAbove) raster.values[i] = cell.highest;
-    else if (cell.near > 0) raster.values[i] = static_cast<float>(ground_.ground(i) + cell.sum / cell.near);
+    else if (cell.near > 0) raster.values[i] = *ground_.lowest(i) + cell.sum / static_cast<float>(cell.near);
   }
   return raster;
 }

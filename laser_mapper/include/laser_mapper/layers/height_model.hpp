@@ -27,9 +27,9 @@ class HeightModel {
 
  private:
   struct Cell {
-    double sum = 0.0;  ///< m, of the heights near the lowest point, above the ground
-    std::uint32_t near = 0, above = 0;
-    float highest = 0.0F;  ///< m, of the points above
+    float sum = 0.0F;                   ///< m, heights of the near points above the lowest one
+    std::uint16_t near = 0, above = 0;  ///< points near the lowest one in height, and higher ones
+    float highest = 0.0F;               ///< m, height of the highest one of these
   };
 
   const GroundGrid& ground_;
