@@ -9,6 +9,7 @@
 #include <sensor_msgs/point_cloud2_iterator.h>
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/parameters.hpp"
@@ -87,7 +88,10 @@ TEST_F(PresetOptions, GiveDoctorTheTopicsAndUnitsOfTheDriver) {
   const std::string before = result()["findings"].dump();
   ASSERT_EQ(doctor({"--preset", "livox"}), 0);
   const nlohmann::json after = result();
-  EXPECT_EQ(after["inputs"][0]["topic"], "/livox/lidar");
+  std::map<std::string, std::string> topics;
+  for (const nlohmann::json& input : after["inputs"]) topics[input["role"]] = input["topic"];
+  EXPECT_EQ(topics["points0"], "/livox/lidar");
+  EXPECT_EQ(topics["imu"], "/livox/imu");
   EXPECT_EQ(after["findings"].dump().find("accelerometer_scale"), std::string::npos) << after["findings"].dump(1);
   EXPECT_EQ(after["findings"].dump().find("accelerometer is not used"), std::string::npos);
   EXPECT_NE(before, after["findings"].dump());
