@@ -41,9 +41,11 @@ class GeoTiffTest : public ::testing::Test {
 TEST_F(GeoTiffTest, ColoursAndTransparencyAreReadBack) {
   const int width = 7, height = 41;  // more rows than a strip
   std::vector<std::uint8_t> rgba;
-  for (int i = 0; i < width * height; ++i)
-    for (const int value : {i, 3 * i + 1, 5 * i + 2, i % 2 == 0 ? 255 : 0})
-      rgba.push_back(static_cast<std::uint8_t>(value % 256));
+  for (int i = 0; i < width * height; ++i) {
+    const bool is_drawn = i % 2 == 0;  // the colours of the others are 0: OpenCV multiplies by alpha
+    for (const int value : {i, 3 * i + 1, 5 * i + 2, 255})
+      rgba.push_back(static_cast<std::uint8_t>(is_drawn ? value % 256 : 0));
+  }
   const std::string path = folder_.file("a.tif");
   writeGeoTiff(path, placement(width, height), rgba);
   const cv::Mat read = cv::imread(path, cv::IMREAD_UNCHANGED);
