@@ -78,7 +78,7 @@ TEST(SureThresholds, ThatAreNotReachedAreReplacedByTheMostPreciseOneThatAnswersA
   const SureThresholds thresholds(
       {{0.5F, 0.2F, 1.0F}, {0.7F, 0.1F, 0.6F}, {0.9F, 0.06F, 0.3F}, {0.99F, 0.03F, 0.01F}});
   EXPECT_FLOAT_EQ(thresholds.rowFor(0.98).least, 0.9F);
-  EXPECT_FLOAT_EQ(thresholds.rowFor(0.9).least, 0.7F);
+  EXPECT_FLOAT_EQ(thresholds.rowFor(0.89).least, 0.7F);
 }
 
 LabelModel modelWithThresholds() {
