@@ -41,7 +41,7 @@ sensor_msgs::LaserScan makeScan(const ScanTopic& laser, int number) {
   scan.angle_max = 3.0F;
   scan.angle_increment = 6.0F / (kScanBeams - 1);
   scan.time_increment = laser.time_increment;
-  scan.scan_time = kScanPeriod;
+  scan.scan_time = static_cast<float>(kScanPeriod);
   scan.range_min = 0.1F;
   scan.range_max = 30.0F;
   for (std::size_t k = 0; k < kScanBeams; ++k)
