@@ -300,7 +300,7 @@ void LiveMap::update(LaserMap& map) {
 std::vector<MapPoint> LiveMap::render() {
   std::vector<MapPoint> points;
   const Trajectory T_map_base = trajectory();
-  if (T_map_base.empty() || store_->scans().lasers(kLiveSession).empty()) return points;
+  if (T_map_base.empty() || counts_.scans + counts_.sweeps == 0) return points;
   LaserMap map(parameters_, *store_, {{kLiveSession, &T_map_base, nullptr}});
   update(map);
   std::set<Tile> gone;

@@ -65,7 +65,8 @@ class BagSource : public Source {
     planar_clouds_ = PlanarClouds(recording_, part_, options.topics, topics_);
     info_.has_images = topics_.find(Role::Left) && topics_.find(Role::Right);
     if (mayUsePlanarLaser()) guessScan(recording_.topicTypes(), topics_);
-    if (!info_.has_images && !topics_.find(Role::Points0) && !(mayUsePlanarLaser() && hasLaser(topics_)))
+    const bool has_sweeps = options.with_sweeps && topics_.find(Role::Points0);
+    if (!info_.has_images && !has_sweeps && !(mayUsePlanarLaser() && hasLaser(topics_)))
       throw DataError(name_,
                       "has no stereo pair of image topics: " + listImageTopics(recording_) +
                           (planar_clouds_.findings().empty()
