@@ -45,7 +45,7 @@ TEST_F(StageSelectionTest, NamesAndKeysAreUniqueAndOdometryComesFirst) {
 }
 
 TEST_F(StageSelectionTest, SelectsAllWithoutAWord) {
-  EXPECT_EQ(select(), (Names{"vo", "lo", "fusion", "keyframes", "places", "stereo", "loops", "graph", "lasers",
+  EXPECT_EQ(select(), (Names{"vo", "lo", "fusion", "keyframes", "sweeps", "places", "stereo", "loops", "graph", "lasers",
                              "labels", "trust"}));
   EXPECT_EQ(printed.find("left out: "), std::string::npos) << printed;
   EXPECT_NE(printed.find("closures: those proposed by places"), std::string::npos) << printed;
@@ -68,7 +68,7 @@ TEST_F(StageSelectionTest, SelectsWhatIsRequestedAndWhatThatNeeds) {
 
 TEST_F(StageSelectionTest, CalibratesBeforeClosuresAreMeasured) {
   options.calibrate = true;
-  EXPECT_EQ(select(), (Names{"vo", "lo", "fusion", "keyframes", "places", "stereo", "calibration", "loops", "graph",
+  EXPECT_EQ(select(), (Names{"vo", "lo", "fusion", "keyframes", "sweeps", "places", "stereo", "calibration", "loops", "graph",
                              "lasers", "labels", "trust"}));
   options.stages = {"vo", "loops", "graph"};
   EXPECT_THROW(select(), UserError) << "there is nothing to calibrate without lasers";
@@ -81,7 +81,7 @@ TEST_F(StageSelectionTest, LocalizationTakesThePlaceOfMapping) {
   EXPECT_THROW(select(), urban_nav_core::Error) << "there is no such store";
   ::testing::internal::GetCapturedStderr();
   urban_nav_store::Store(options.localise, urban_nav_store::Access::Write).commit();
-  EXPECT_EQ(select(), (Names{"vo", "lo", "fusion", "keyframes", "localization"}));
+  EXPECT_EQ(select(), (Names{"vo", "lo", "fusion", "keyframes", "sweeps", "localization"}));
   options.store = options.localise;
   EXPECT_THROW(select(), UserError);
   ::testing::internal::GetCapturedStderr();

@@ -94,7 +94,7 @@ TEST_F(LabelsTeaching, RejectsUnusableTrainingData) {
     EXPECT_EQ(teach("m", edited), 2) << edited;
   for (const char* name : {"foreign", "without", "absent"}) EXPECT_EQ(teach(name, "edited.ply"), 2) << name;
   EXPECT_EQ(labels({"train", "--corrections", path("edited.ply"), "-o", path("taught")}), 2) << "no model";
-  EXPECT_EQ(labels({"train", "--add", path("m"), "-o", path("taught")}), 2) << "nothing to learn";
+  EXPECT_EQ(labels({"train", "--add", path("m"), "-o", path("again")}), 0) << "its thresholds are determined again";
   EXPECT_EQ(labels({"train", "-o", path("taught")}), 2) << "nothing to learn";
   EXPECT_EQ(labels({"train", "--add", path("m"), "--corrections", path("edited.ply"), "--features", "paper", "-o",
                     path("taught")}),
