@@ -57,7 +57,7 @@ const Table<Parameters>& table() {
            "Number of matched surface patches below which a sweep is DEGRADED.",
            "docs/derivations/laser_odometry.md", {}, Audience::Experts},
           {"planar_cell", &P::planar_cell, "m", 0.2, 0.05, 5.0, {}, "As cell, for planar lasers.",
-           "laser_odometry/bench, planar"},
+           "laser_odometry/bench, planar", {}, Audience::Experts},
           {"planar_min_range", &P::planar_min_range, "m", 0.1, 0.0, 100.0, {}, "As min_range, for planar lasers.",
            "docs/derivations/laser_odometry.md", {}, Audience::Experts},
           {"floor_height", &P::floor_height, "m", 0.01, 1e-4, 10.0, {},

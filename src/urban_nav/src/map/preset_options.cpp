@@ -37,10 +37,11 @@ Option presetOption() {
           urban_nav_input::driverPresetNames()};
 }
 
-std::string presetHelp() {
-  std::string text = "Presets (--preset):\n";
+std::string presetHelp(bool is_whole) {
+  std::string text = is_whole ? "Presets (--preset):\n" : "Presets (--preset; their topics: --help-all):\n";
   for (const DriverPreset& preset : urban_nav_input::driverPresets()) {
     text += std::string("  ") + preset.name + ": " + preset.driver + "\n";
+    if (!is_whole) continue;
     for (const urban_nav_input::PresetRole& role : preset.roles) {
       text += std::string("    ") + role.role + ":";
       for (const char* name : role.names) text += std::string(" .../") + name;

@@ -10,8 +10,9 @@ namespace urban_nav {
 /// Returns the option --preset.
 Option presetOption();
 
-/// Returns the table of the presets, for --help.
-std::string presetHelp();
+/// Returns the table of the presets for --help: their names and drivers; `is_whole`: also their topics and units, for
+/// --help-all.
+std::string presetHelp(bool is_whole);
 
 /// Sets the parameters of stage input that follow from the units of the presets given on the command line, unless they
 /// are set. Throws UserError for an unknown preset, and for two presets with different units.

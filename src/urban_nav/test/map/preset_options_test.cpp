@@ -120,7 +120,8 @@ TEST(PresetUnits, AreOverriddenByTheUser) {
 }
 
 TEST(PresetUnits, AndTopicsAreInTheHelp) {
-  const std::string help = presetHelp();
+  EXPECT_NE(presetHelp(false).find("realsense: "), std::string::npos);
+  const std::string help = presetHelp(true);
   for (const char* text : {"realsense: ", ".../infra1/image_rect_raw", "input.accelerometer_scale=9.80665"})
     EXPECT_NE(help.find(text), std::string::npos) << text;
 }

@@ -45,8 +45,8 @@ TEST_F(StageSelectionTest, NamesAndKeysAreUniqueAndOdometryComesFirst) {
 }
 
 TEST_F(StageSelectionTest, SelectsAllWithoutAWord) {
-  EXPECT_EQ(select(), (Names{"vo", "lo", "fusion", "keyframes", "sweeps", "places", "stereo", "loops", "graph", "lasers",
-                             "labels", "trust"}));
+  EXPECT_EQ(select(), (Names{"vo", "lo", "fusion", "keyframes", "sweeps", "places", "stereo", "loops", "graph",
+                             "lasers", "labels", "trust"}));
   EXPECT_EQ(printed.find("left out: "), std::string::npos) << printed;
   EXPECT_NE(printed.find("closures: those proposed by places"), std::string::npos) << printed;
   options.stages = {"vo", "loops", "graph"};
@@ -68,8 +68,8 @@ TEST_F(StageSelectionTest, SelectsWhatIsRequestedAndWhatThatNeeds) {
 
 TEST_F(StageSelectionTest, CalibratesBeforeClosuresAreMeasured) {
   options.calibrate = true;
-  EXPECT_EQ(select(), (Names{"vo", "lo", "fusion", "keyframes", "sweeps", "places", "stereo", "calibration", "loops", "graph",
-                             "lasers", "labels", "trust"}));
+  EXPECT_EQ(select(), (Names{"vo", "lo", "fusion", "keyframes", "sweeps", "places", "stereo", "calibration", "loops",
+                             "graph", "lasers", "labels", "trust"}));
   options.stages = {"vo", "loops", "graph"};
   EXPECT_THROW(select(), UserError) << "there is nothing to calibrate without lasers";
   ::testing::internal::GetCapturedStderr();

@@ -116,7 +116,8 @@ TEST_F(Labels, AreTheSameInAllFormats) {
     }
   }
   const auto codes = urban_nav_core::readCloudColumns(path("out/c_labels.las"), {"classification"})[0].value();
-  for (std::size_t i = 0; i < table.rows(); ++i) ASSERT_EQ(codes[i], table.integer(i, 1) == 2 ? 2.0 : 6.0) << "ground, building";
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    ASSERT_EQ(codes[i], table.integer(i, 1) == 2 ? 2.0 : 6.0) << "ground, building";
   ASSERT_EQ(labels({"apply", path("m"), path("find"), "-o", path("one"), "--formats", "las"}), 0);
   EXPECT_FALSE(std::filesystem::exists(path("one/c_labels.csv")));
   EXPECT_EQ(urban_nav_input::testing::readFile(path("one/c_labels.las")),
