@@ -47,7 +47,8 @@ void testKind(const std::vector<ClosureDifference>& closures, bool by_laser, Tes
     if (closure.by_laser == by_laser)
       if (const std::optional<Compared> each = compare(closure)) compared.push_back(*each);
   if (compared.empty()) {
-    results.absent.push_back({name, by_laser ? "no accepted closure by the lasers" : "no accepted closure by stereo"});
+    const std::string by = by_laser ? "the lasers" : "stereo";
+    results.absent.push_back({name, "no accepted closure by " + by + " between two moments of the session"});
     return;
   }
   std::sort(compared.begin(), compared.end(),
