@@ -141,7 +141,9 @@ Command doctorCommand() {
       setOption(),
       threadsOption()};
   command.examples = {"urban_nav doctor robot.bag", "urban_nav doctor sequences/06 --json doctor.json"};
-  command.more_help = [](const Arguments& arguments) { return presetHelp(arguments.has("help-all")) + commonHelp(arguments); };
+  command.more_help = [](const Arguments& arguments) {
+    return presetHelp(arguments.has("help-all")) + commonHelp(arguments);
+  };
   command.run = runDoctor;
   return command;
 }

@@ -175,7 +175,9 @@ Command mapCommand(StageFactory make_stages, ResultRecorder record) {
   command.options = mapOptions(make_stages());
   command.examples = {"urban_nav map sequences/06 --out out",
                       "urban_nav map robot.bag --topic left:=/cam0/image_raw --set swf_vo.window=25 --out out"};
-  command.more_help = [](const Arguments& arguments) { return presetHelp(arguments.has("help-all")) + parametersHelp(arguments); };
+  command.more_help = [](const Arguments& arguments) {
+    return presetHelp(arguments.has("help-all")) + parametersHelp(arguments);
+  };
   command.run = [make_stages = std::move(make_stages), record = std::move(record)](const Arguments& arguments,
                                                                                    Console& console) {
     AllStages stages = make_stages();
