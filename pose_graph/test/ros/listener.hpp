@@ -61,8 +61,8 @@ class Listener : public urban_nav_ros::testing::Listener {
   }
 
   const urban_nav_ros::testing::Receipts receipts{"pose_graph"};
-  ros::Publisher relative = advertise<urban_nav_msgs::RelativePose>("vo/relative_pose");
-  ros::Publisher odometry = advertise<nav_msgs::Odometry>("vo/odometry");
+  ros::Publisher relative = advertise<urban_nav_msgs::RelativePose>("odometry/relative_pose");
+  ros::Publisher odometry = advertise<nav_msgs::Odometry>("odometry");
   ros::Publisher closures = advertise<urban_nav_msgs::MetricClosure>("loops/metric");
   ros::Publisher constraints = advertise<urban_nav_msgs::RelativeConstraint>("map/constraints");
   ros::Publisher fixes = advertise<sensor_msgs::NavSatFix>("gps/fix");
