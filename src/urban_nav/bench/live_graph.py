@@ -90,7 +90,7 @@ class Feeder:
     """Publishes the recording and receives the output of the graph."""
 
     def __init__(self):
-        self.steps = rospy.Publisher("vo/relative_pose", RelativePose, queue_size=10 * STEPS)
+        self.steps = rospy.Publisher("odometry/relative_pose", RelativePose, queue_size=10 * STEPS)
         self.closures = rospy.Publisher("loops/metric", MetricClosure, queue_size=10 * STEPS)
         self.revision, self.status = 0, None
         self.fed = []  # time of each step

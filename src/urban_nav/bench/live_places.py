@@ -38,7 +38,7 @@ class PlaceFeeder:
     def __init__(self, bag):
         self.panoramas = panoramas_of(bag)
         self.images = [rospy.Publisher(f"ladybug/camera{camera}/image_raw/compressed", CompressedImage, queue_size=100) for camera in range(CAMERAS)]
-        self.odometry = rospy.Publisher("vo/odometry", Odometry, queue_size=100)
+        self.odometry = rospy.Publisher("odometry", Odometry, queue_size=100)
         self.beliefs, self.status, self.fed = 0, None, []
         rospy.Subscriber("places/belief", PlaceBelief, self.count)
         rospy.Subscriber("fabmap_node/status", StageStatus, lambda status: setattr(self, "status", status))
