@@ -18,12 +18,15 @@ enum class FaultKind : std::uint8_t {
   Jump,     ///< stamps are later by value in s (default 10; may be negative)
   Unplug,   ///< no data
   Nan,      ///< numbers are NaN; images are black
-  Knock,    ///< stereo only: the right camera is rotated about its y axis by value in deg (default 0.2)
+  Knock,    ///< a mounting turns by value in deg (default kDefaultKnock): of stereo the right camera about its y axis,
+            ///< the left one of the lasers about the axis of its scan plane, the head of the Ladybug about the vertical
   Drift,    ///< stamps are delayed linearly over the duration, up to value in s (default 0.1), then constant
   Scale,    ///< stereo only, entire session: the baseline of camera_info is value times the true one (default 1.01)
   Rain,     ///< stereo only: streaks of rain, different in each image; value: share of the pixels (default 0.05)
   Dark      ///< stereo only: images of value times the brightness (default 0.05), with the noise of the sensor
 };
+constexpr double kDefaultKnock = 0.2;  // deg
+
 /// "drop", "freeze", "swap", "corrupt", "jump", "unplug", "nan", "knock", "drift", "scale", "rain", "dark".
 const char* toString(FaultKind kind);
 std::string faultList();

@@ -49,6 +49,8 @@ class LadybugHead {
               const CameraDefects& defects = {});
 
   const std::array<Camera, 5>& cameras() const { return cameras_; }
+  /// Moves the head on the robot, as by a knock.
+  void place(const urban_nav_core::Pose& T_base_head) { T_base_head_ = T_base_head; }
   /// Returns upright images, 8 bit BGR.
   std::array<cv::Mat, 5> take(const Motion& motion, double t);
   /// Returns depth and class of the last images.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_sim/fault.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <vector>
@@ -38,8 +39,20 @@ bool isShare(FaultKind kind) {
   return kind == FaultKind::Drop || kind == FaultKind::Corrupt || kind == FaultKind::Rain || kind == FaultKind::Dark;
 }
 
-bool isOfStereo(FaultKind kind) {
-  return kind == FaultKind::Knock || kind == FaultKind::Scale || kind == FaultKind::Rain || kind == FaultKind::Dark;
+/// Returns the sensors that may have a fault; empty: any.
+std::vector<Sensor> affectedSensors(FaultKind kind) {
+  if (kind == FaultKind::Knock) return {Sensor::Stereo, Sensor::Lasers, Sensor::Ladybug};
+  if (kind == FaultKind::Scale || kind == FaultKind::Rain || kind == FaultKind::Dark) return {Sensor::Stereo};
+  return {};
+}
+
+/// Throws UserError with the allowed sensors.
+void checkSensor(const Fault& fault, const std::string& where) {
+  const std::vector<Sensor> allowed = affectedSensors(fault.kind);
+  if (allowed.empty() || std::find(allowed.begin(), allowed.end(), fault.sensor) != allowed.end()) return;
+  std::string list;
+  for (const Sensor sensor : allowed) list += (list.empty() ? "" : ", ") + std::string(toString(sensor));
+  throw UserError(where, std::string(toString(fault.kind)) + " of \"" + toString(fault.sensor) + "\"", list);
 }
 
 }  // namespace
@@ -75,8 +88,7 @@ Fault parseFault(const std::string& text, const std::string& option) {
   fault.kind = parseKind(parts[0], where);
   if (parts.size() < 4 || parts.size() > 5) throw UserError(where, "incomplete", kForm);
   fault.sensor = parts[1] == "clock" ? Sensor::Stereo : parseSensor(std::string(parts[1]), where);
-  if (isOfStereo(fault.kind) && fault.sensor != Sensor::Stereo)
-    throw UserError(where, std::string(toString(fault.kind)) + " of \"" + toString(fault.sensor) + "\"", "stereo");
+  checkSensor(fault, where);
   fault.start = within(parts[2], "start", 0.0, 1e6, where);
   fault.duration = within(parts[3], "duration", 0.0, 1e6, where);
   if (parts.size() == 5) {

@@ -16,7 +16,7 @@ using urban_nav_core::StampNs;
 namespace {
 
 constexpr double kDefaultDrop = 0.3, kDefaultCorrupt = 0.3, kDefaultJump = 10.0;
-constexpr double kDefaultKnock = 0.2, kDefaultDrift = 0.1;  // deg, s
+constexpr double kDefaultDrift = 0.1;  // s
 constexpr double kDefaultRain = 0.05, kDefaultDark = 0.05;
 
 struct Origin {

@@ -14,7 +14,8 @@
 
 namespace urban_nav_sim {
 
-/// Applies faults to measurements. Deterministic for equal seed and measurements. Not thread-safe.
+/// Applies faults to measurements, except knocks of lasers and the Ladybug, which OpticalSensors simulates.
+/// Deterministic for equal seed and measurements. Not thread-safe.
 class FaultFilter {
  public:
   /// `right_lens`: of the right stereo camera, which Knock rotates.

@@ -2,6 +2,8 @@
 #include "session/optical_sensors.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <opencv2/core.hpp>
 #include <string>
 #include <utility>
@@ -19,6 +21,8 @@ namespace urban_nav_sim {
 
 namespace frames = urban_nav_core::frames;
 
+using urban_nav_core::expSo3;
+using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 
 namespace {
@@ -56,18 +60,18 @@ ViewTruth toViewTruth(const SweepTruth& sweep, StampNs stamp) {
 class OpticalSensors::Implementation {
  public:
   Implementation(const World& world, const Motion& motion, const Noise& noise, const Defects& defects,
-                 const LidarModel& lidar, const std::set<Sensor>& views)
+                 const LidarModel& lidar, const std::set<Sensor>& views, const std::vector<Fault>& faults)
       : motion_(motion),
         views_(views),
+        laser_seed_(noise.of("lasers").bits(0)),
+        laser_settings_(laserSettings(defects)),
+        faults_(faults),
         tracer_(world),
         sky_(world.day, noise.of("sky").bits(0)),
         stereo_(tracer_, sky_, stereoImages(defects), sensorPose(frames::kStereoLeft), noise.of("stereo").bits(0),
                 cameraDefects(defects, Sensor::Stereo)),
         ladybug_(tracer_, sky_, ladybugPlace(), noise.of("ladybug").bits(0), cameraDefects(defects, Sensor::Ladybug)),
-        left_laser_(tracer_, sensorPose(frames::kLaserLeft), noise.of("lasers").bits(0), frames::kLaserLeft,
-                    laserSettings(defects)),
-        right_laser_(tracer_, sensorPose(frames::kLaserRight), noise.of("lasers").bits(0), frames::kLaserRight,
-                     laserSettings(defects)),
+        right_laser_(tracer_, sensorPose(frames::kLaserRight), laser_seed_, frames::kLaserRight, laser_settings_),
         lidar_(tracer_, lidarPose(), noise.of("lidar3d").bits(0), lidar, lidarSettings(defects)) {}
 
   std::vector<Measurement> stereo(std::int64_t k, const Clock& clock) {
@@ -85,6 +89,7 @@ class OpticalSensors::Implementation {
   std::vector<Measurement> panorama(std::int64_t k, const Clock& clock) {
     const double t = sensorSchedule(Sensor::Ladybug).at(k);
     const StampNs stamp = clock.stamp(k, t);
+    ladybug_.place(turned(ladybugPlace(), Eigen::Vector3d::UnitZ(), turnAt(Sensor::Ladybug, t)));
     std::array<cv::Mat, 5> taken = ladybug_.take(motion_, t);
     std::vector<Measurement> measurements;
     for (std::size_t i = 0; i < taken.size(); ++i) {
@@ -96,10 +101,10 @@ class OpticalSensors::Implementation {
     return measurements;
   }
 
-  std::vector<Measurement> laser(Side side, std::int64_t k, const Clock& clock) const {
+  std::vector<Measurement> laser(Side side, std::int64_t k, const Clock& clock) {
     const double t = laserSchedule(side).at(k);
     const StampNs stamp = clock.stamp(k, t);
-    const Lms291& device = side == Side::Left ? left_laser_ : right_laser_;
+    const Lms291& device = side == Side::Left ? leftLaserAt(t) : right_laser_;
     const bool is_viewed = views_.count(Sensor::Lasers) != 0;
     std::vector<BeamTruth> beams;
     std::vector<Measurement> measurements = {LaserMeasurement{
@@ -123,19 +128,44 @@ class OpticalSensors::Implementation {
   const Lidar3d& lidarDevice() const { return lidar_; }
 
  private:
+  /// Returns the turn of a mounting by the knocks until a time, deg.
+  double turnAt(Sensor sensor, double t) const {
+    double turn = 0.0;
+    for (const Fault& fault : faults_)
+      if (fault.kind == FaultKind::Knock && fault.sensor == sensor && fault.isActive(t))
+        turn += fault.value.value_or(kDefaultKnock);
+    return turn;
+  }
+  static Pose turned(const Pose& place, const Eigen::Vector3d& axis, double degrees) {
+    if (degrees == 0.0) return place;  // to the bit
+    return Pose(expSo3(degrees * M_PI / 180.0 * axis) * place.q(), place.t());
+  }
+  const Lms291& leftLaserAt(double t) {
+    const double turn = turnAt(Sensor::Lasers, t);
+    const Pose place = sensorPose(frames::kLaserLeft);
+    return left_lasers_
+        .try_emplace(turn, tracer_, turned(place, place.R().col(2), turn), laser_seed_, frames::kLaserLeft,
+                     laser_settings_)
+        .first->second;
+  }
+
   const Motion& motion_;
   std::set<Sensor> views_;
+  std::uint64_t laser_seed_;
+  Lms291::Settings laser_settings_;
+  std::vector<Fault> faults_;
   Tracer tracer_;
   Sky sky_;
   StereoHead stereo_;
   LadybugHead ladybug_;
-  Lms291 left_laser_, right_laser_;
+  std::map<double, Lms291> left_lasers_;  // key: turn, deg
+  Lms291 right_laser_;
   Lidar3d lidar_;
 };
 
 OpticalSensors::OpticalSensors(const World& world, const Motion& motion, const Noise& noise, const Defects& defects,
-                               const LidarModel& lidar, const std::set<Sensor>& views)
-    : implementation_(std::make_unique<Implementation>(world, motion, noise, defects, lidar, views)) {}
+                               const LidarModel& lidar, const std::set<Sensor>& views, const std::vector<Fault>& faults)
+    : implementation_(std::make_unique<Implementation>(world, motion, noise, defects, lidar, views, faults)) {}
 OpticalSensors::~OpticalSensors() = default;
 
 std::vector<Measurement> OpticalSensors::stereo(std::int64_t k, const Clock& clock) {

@@ -12,6 +12,7 @@
 #include "proprioception/clock.hpp"
 #include "urban_nav_core/camera/camera_info.hpp"
 #include "urban_nav_sim/defect.hpp"
+#include "urban_nav_sim/fault.hpp"
 #include "urban_nav_sim/measurement.hpp"
 #include "world/world.hpp"
 
@@ -22,8 +23,9 @@ namespace urban_nav_sim {
 /// world and motion must outlive it.
 class OpticalSensors {
  public:
+  /// `faults`: its knocks turn the left laser and the Ladybug.
   OpticalSensors(const World& world, const Motion& motion, const Noise& noise, const Defects& defects,
-                 const LidarModel& lidar, const std::set<Sensor>& views);
+                 const LidarModel& lidar, const std::set<Sensor>& views, const std::vector<Fault>& faults = {});
   ~OpticalSensors();
 
   std::vector<Measurement> stereo(std::int64_t k, const Clock& clock);

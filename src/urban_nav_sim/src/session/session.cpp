@@ -146,8 +146,8 @@ class Session::Implementation {
   }
 
   void addEyes() {
-    optical_sensors_ =
-        std::make_unique<OpticalSensors>(world_, *motion_, noise_, options_.defects, options_.lidar, options_.views);
+    optical_sensors_ = std::make_unique<OpticalSensors>(world_, *motion_, noise_, options_.defects, options_.lidar,
+                                                        options_.views, options_.faults);
     if (has(Sensor::Lasers))
       for (const Side side : {Side::Left, Side::Right})
         timeline_.add(laserSchedule(side), [this, side, clock = sensorClock(Sensor::Lasers)](std::int64_t k) {

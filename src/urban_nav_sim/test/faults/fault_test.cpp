@@ -56,7 +56,8 @@ TEST(Fault, StatesTheAllowedValues) {
   expectFaultError("drop:stereo:0:1:1.5", "share", "0...1");
   expectFaultError("freeze:stereo:0:1:1", "freeze takes no value", "KIND");
   expectFaultError("", "fault", "drop");
-  expectFaultError("knock:lasers:0:0", "knock of \"lasers\"", "stereo");
+  expectFaultError("knock:imu:0:0", "knock of \"imu\"", "stereo, lasers, ladybug");
+  expectFaultError("rain:lasers:0:0", "rain of \"lasers\"", "stereo");
   expectFaultError("knock:stereo:0:0:90", "turn", "-10...10");
   expectFaultError("scale:stereo:0:0:0", "factor", "0.1...10");
 }
