@@ -28,8 +28,8 @@ def load(file, **arguments):
 
 
 def presets_of_command():
-    """Returns the ends of the topic names by preset and role, as `urban_nav doctor --help` lists them."""
-    text = subprocess.run([str(command()), "doctor", "--help"], check=True, capture_output=True, text=True).stdout
+    """Returns the ends of the topic names by preset and role, as `urban_nav doctor --help-all` lists them."""
+    text = subprocess.run([str(command()), "doctor", "--help-all"], check=True, capture_output=True, text=True).stdout
     presets, name = {}, None
     for line in text[text.index("Presets (--preset):"):].splitlines()[1:]:
         if found := re.match(r"  (\w+): ", line):
