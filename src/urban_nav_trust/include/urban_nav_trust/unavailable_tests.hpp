@@ -5,7 +5,7 @@
 
 namespace urban_nav_trust {
 
-// Tests that are not implemented, although their measurements may exist. They are listed as absent with the reason.
+// Tests that do not exist, although their measurements may. They are listed as absent with the reason.
 constexpr const char* kColourTest = "panorama_colour";           ///< colours of panoramas against those of the map
 constexpr const char* kFixTest = "gps_position";                 ///< GPS fixes against the path
 constexpr const char* kFreeSpaceTest = "free_space";             ///< beams that pass through surfaces of the map
