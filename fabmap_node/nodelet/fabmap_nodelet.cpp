@@ -6,6 +6,7 @@
 #include <visualization_msgs/MarkerArray.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include <optional>
 #include <tuple>
 #include <variant>
 
@@ -13,8 +14,9 @@
 #include "live/belief_trail.hpp"
 #include "live/live_places.hpp"
 #include "live/nodelet_parameters.hpp"
-#include "urban_nav_live/round_gate.hpp"
+#include "live/place_images.hpp"
 #include "urban_nav_ros/closure.hpp"
+#include "urban_nav_ros/head_images.hpp"
 #include "urban_nav_ros/image.hpp"
 #include "urban_nav_ros/panorama_feed.hpp"
 #include "urban_nav_ros/pose.hpp"
@@ -23,18 +25,20 @@
 
 namespace fabmap_node {
 
-using urban_nav_ros::Panorama;
+using urban_nav_ros::HeadImages;
 using urban_nav_ros::PanoramaFeed;
 using urban_nav_ros::RecordedImage;
 
 namespace {
 
-constexpr double kImageTimeout = 2.0;     // s
 constexpr double kOdometryTimeout = 5.0;  // s
 // Capacity for pending writes of about 25 kB, in addition to those that LivePlaces holds while the disk is unavailable.
 constexpr std::size_t kWaitingPlaces = 1000;
+// Time by stamps that images of the left camera wait for a panoramic head, which begins within a period of its own
+// (Ladybug2 of the paper: 3 Hz) and of the start of its driver.
+constexpr urban_nav_core::StampNs kHeadPatience = 3'000'000'000;
 
-/// Image of one camera of the head.
+/// Image of one camera of the head, or of the left camera.
 struct CameraImage {
   std::size_t camera = 0;
   RecordedImage image;
@@ -80,26 +84,22 @@ class FabmapStage {
   void handle(Input& input);
   bool idle();
   std::string reset();
-  void close() {}
+  void close() { topics_->shutDown(); }
   static constexpr int kFinishOrder = 0;  // before the stage that measures its closures
   void finish(std::chrono::milliseconds /*limit*/) {
-    feed_->finish();  // completes a pending panorama with the images received
-    processPanoramas();
+    images_->finish();
     places_->commit();
   }
-  urban_nav_live::StageReport report() const { return places_->report(); }
+  urban_nav_live::StageReport report() const;
 
  private:
-  using Images = urban_nav_live::RoundGate<CameraImage>;
-  void sortImages();
-  template <typename Message>
-  void subscribeCameras();
+  using Images = PlaceImages<RecordedImage, PanoramaFeed>;
+  void takeImages();
+  void choose(ImageSource source);
   void subscribeOdometry();
   void advertiseFiles();
   void loadMap();
-  void startFeed();
-  void processPanoramas();
-  void process(const Panorama& panorama);
+  void process(urban_nav_core::StampNs stamp, const std::vector<RecordedImage>& images);
   void addOdometry(const OdometryPose& pose);
   void publishMarkers();
 
@@ -107,9 +107,9 @@ class FabmapStage {
   NodeletParameters nodelet_;
   Parameters parameters_;
   ros::Publisher belief_, closure_, markers_;
-  std::unique_ptr<PanoramaFeed> feed_;
   std::unique_ptr<Images> images_;
   std::unique_ptr<LivePlaces> places_;
+  std::optional<HeadImages> topics_;
   BeliefTrail trail_;
   std::string odom_frame_;
   std::size_t drawn_ = 0;  // count of the trail at the last drawing
@@ -121,30 +121,26 @@ FabmapStage::FabmapStage(Node& node) : node_(node) {
   places_ = std::make_unique<LivePlaces>(parameters_, LiveSessionName{nodelet_.robot, nodelet_.recording, true},
                                          nodelet_.store, storeOptions());
   loadMap();
-  startFeed();
-  sortImages();
+  takeImages();
   belief_ = node.nh().advertise<urban_nav_msgs::PlaceBelief>(urban_nav_ros::topics::kPlaceBelief, 100);
   closure_ = node.nh().advertise<urban_nav_msgs::TopologicalClosure>(urban_nav_ros::topics::kPlaceClosure, 1000);
   markers_ = node.nh().advertise<visualization_msgs::MarkerArray>(urban_nav_ros::topics::kPlaceMarkers, 1, true);
   advertiseFiles();
   subscribeOdometry();
-  if (nodelet_.compressed) subscribeCameras<sensor_msgs::CompressedImage>();
-  else subscribeCameras<sensor_msgs::Image>();
+  HeadImages::Options options;
+  options.cameras = nodelet_.cameras;
+  options.compressed = nodelet_.compressed;
+  options.left_compressed = nodelet_.left_compressed;
+  options.queue = nodelet_.queue_size;
+  topics_.emplace(node, options, [this](std::size_t camera, RecordedImage image) {
+    node_.push(CameraImage{camera, std::move(image)});
+  });
 }
 
-template <typename Message>
-void FabmapStage::subscribeCameras() {
-  urban_nav_ros::TopicOptions options;
-  options.timeout = kImageTimeout;
-  options.queue = nodelet_.queue_size;
-  for (int camera = 0; camera < nodelet_.cameras; ++camera) {
-    std::string image = nodelet_.cameras > 1 ? urban_nav_ros::topics::kPanoramaImages[static_cast<std::size_t>(camera)]
-                                             : urban_nav_ros::topics::kLeftImage;
-    if (nodelet_.compressed) image += "/compressed";
-    node_.subscribeInput<Message>(image, options, [camera](const boost::shared_ptr<const Message>& message) {
-      return Input(CameraImage{static_cast<std::size_t>(camera), RecordedImage(message)});
-    });
-  }
+void FabmapStage::choose(ImageSource source) {
+  if (source == ImageSource::Head) return topics_->chooseHead();
+  node_.logInfo("no panoramas: places are recognised in the images of the left camera");
+  topics_->chooseLeft();
 }
 
 void FabmapStage::subscribeOdometry() {
@@ -180,58 +176,46 @@ void FabmapStage::loadMap() {
   if (!nodelet_.map.empty()) places_->load(nodelet_.map);
 }
 
-void FabmapStage::startFeed() {
-  PanoramaFeed::Options options;
-  options.cameras = static_cast<std::size_t>(nodelet_.cameras);
-  options.max_lateness = static_cast<urban_nav_core::StampNs>(1e9 * nodelet_.max_lateness);
-  options.delivery = urban_nav_core::DeliveryOrder::OrderedStreams;
-  feed_ = std::make_unique<PanoramaFeed>(options);
+void FabmapStage::takeImages() {
+  Images::Options options;
+  options.cameras = nodelet_.cameras == 0 ? HeadImages::kHeadCameras : static_cast<std::size_t>(nodelet_.cameras);
+  if (nodelet_.cameras == 0) options.head_patience = kHeadPatience;
+  options.make_feed = [this, cameras = options.cameras] {
+    PanoramaFeed::Options feed;
+    feed.cameras = cameras;
+    feed.max_lateness = static_cast<urban_nav_core::StampNs>(1e9 * nodelet_.max_lateness);
+    feed.delivery = urban_nav_core::DeliveryOrder::OrderedStreams;
+    return std::make_unique<PanoramaFeed>(feed);
+  };
+  images_ = std::make_unique<Images>(
+      options, Images::Listener{[this](urban_nav_core::StampNs stamp, const auto& images) { process(stamp, images); },
+                                [this](ImageSource source) { choose(source); }});
 }
 
 void FabmapStage::handle(Input& input) {
   if (const auto* pose = std::get_if<OdometryPose>(&input)) return addOdometry(*pose);
   if (const auto* session = std::get_if<urban_nav_core::OdometrySessionPtr>(&input)) return places_->follow(*session);
   const CameraImage& image = std::get<CameraImage>(input);
-  images_->add(static_cast<int>(image.camera), image.image.stamp(), image);
-}
-
-/// Images of the cameras have separate connections: their stamps jump back one after the other.
-void FabmapStage::sortImages() {
-  Images::Options options;
-  for (int camera = 0; camera < nodelet_.cameras; ++camera) options.leading.insert(camera);
-  Images::Listener listener;
-  listener.item = [this](CameraImage& image) {
-    feed_->add(image.camera, image.image);
-    processPanoramas();
-  };
-  listener.next_round = [this] {
-    feed_->finish();
-    processPanoramas();
-    startFeed();
-  };
-  images_ = std::make_unique<Images>(options, listener);
+  images_->add(image.camera, image.image.stamp(), image.image);
 }
 
 void FabmapStage::addOdometry(const OdometryPose& pose) {
   places_->addOdometry(pose.T_odom_base);
+  images_->addPose(pose.T_odom_base);
   trail_.addOdometry(pose.T_odom_base);
   odom_frame_ = pose.odom_frame;
 }
 
-void FabmapStage::processPanoramas() {
-  while (const auto panorama = feed_->take()) process(*panorama);
-}
-
-void FabmapStage::process(const Panorama& panorama) {
+void FabmapStage::process(urban_nav_core::StampNs stamp, const std::vector<RecordedImage>& images) {
   std::vector<cv::Mat> grey;
   std::vector<urban_nav_core::ImageView> views;
-  for (const RecordedImage& image : panorama.images) {
+  for (const RecordedImage& image : images) {
     const urban_nav_ros::GreyImage decoded = image.empty() ? urban_nav_ros::GreyImage() : image.grey();
     if (!decoded.fault.empty()) node_.logWarning("image", decoded.fault);
     grey.push_back(decoded.pixels);
     views.push_back(urban_nav_ros::toView(grey.back()));
   }
-  const PlaceOutput output = places_->process(panorama.stamp, views);
+  const PlaceOutput output = places_->process(stamp, views);
   trail_.add(output.belief);
   belief_.publish(toMessage(output.belief));
   for (const auto& closure : output.closures) closure_.publish(urban_nav_ros::toTopologicalClosureMessage(closure));
@@ -248,17 +232,27 @@ bool FabmapStage::idle() {
   places_->syncStore();
   node_.followStore(places_->storeState());
   publishMarkers();
-  const urban_nav_live::StageReport report = places_->report();
+  const urban_nav_live::StageReport report = this->report();
   node_.publishStatus(report.status, report.reason_name, urban_nav_ros::toStampNs(ros::Time::now()));
   return false;
+}
+
+urban_nav_live::StageReport FabmapStage::report() const {
+  urban_nav_live::StageReport report = places_->report();
+  const ImageSource source = images_->source();
+  const bool is_waiting = nodelet_.cameras == 0 && source == ImageSource::Unknown;
+  if (is_waiting && report.status.health == urban_nav_core::Health::Ok)
+    report.summary = "idle: no images of a panoramic head or of the left camera have been received yet";
+  const bool is_left = source == ImageSource::Left || nodelet_.cameras == 1;
+  report.add("images", is_waiting ? "none yet" : is_left ? "left camera" : "panoramas");
+  return report;
 }
 
 std::string FabmapStage::reset() {
   places_->reset();
   loadMap();
-  sortImages();
+  images_->reset();
   trail_.clear();
-  startFeed();
   return std::string("all places ") + (nodelet_.map.empty() ? "" : "but those of the map ") +
          "were removed; the next panorama begins a new session";
 }

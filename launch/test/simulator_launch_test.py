@@ -115,7 +115,7 @@ class SimulatorLaunch(LaunchCase):
         return camera_is_connected()
 
     def test_rviz_shows_what_is_there(self):
-        self.launch("simulator.launch", sensors="stereo", duration=60, recognise_places="true")
+        self.launch("simulator.launch", sensors="stereo", duration=60)
         self.look_at(rviz_file("urban_nav"))
 
     def test_rviz_shows_sensors_and_truth_without_odometry(self):

@@ -96,6 +96,8 @@ class SceneLabelerStage {
  private:
   template <typename Message>
   void subscribeCamera(std::size_t side);
+  /// Returns whether scans and images are processed.
+  bool isWanted() const { return nodelet_.always || image_.getNumSubscribers() + cloud_.getNumSubscribers() > 0; }
   void addScan(const sensor_msgs::LaserScan& message);
   void addClasses(const sensor_msgs::Image& message);
   void calibrate(const CameraCalibration& calibration);
@@ -232,7 +234,8 @@ void SceneLabelerStage::handle(Input& input) {
     click_ = *click;
     return;
   }
-  if (const auto* image = std::get_if<CameraImage>(&input)) {
+  const auto* image = std::get_if<CameraImage>(&input);
+  if (image != nullptr && isWanted()) {
     urban_nav_ros::RecordedImage recorded = image->image;
     recorded.addTo(grey_range_);
     recorded.setScale(grey_range_.scale());
@@ -243,6 +246,7 @@ void SceneLabelerStage::handle(Input& input) {
 void SceneLabelerStage::addScan(const sensor_msgs::LaserScan& message) {
   const auto planar = urban_nav_ros::toPlanarScan(message);
   if (!planar) return node_.gate().countInvalid();
+  if (!isWanted()) return;
   beams_.add(*planar);
   const std::string& frame = message.header.frame_id;
   const auto T_base_laser = transforms_.lookup(nodelet_.base_frame, frame);
@@ -303,9 +307,11 @@ std::string SceneLabelerStage::reset() {
 urban_nav_live::StageReport SceneLabelerStage::report() const {
   const std::string odometry = node_.monitor().fault(urban_nav_ros::topic_groups::kOdometry);
   const std::string lasers = node_.monitor().fault(urban_nav_ros::topic_groups::kLasers);
+  const bool is_wanted = isWanted();
   urban_nav_live::StageReport report;
+  if (!is_wanted) report.summary = "idle: no subscriber to labels/image or labels/cloud";
   const auto set = [&](int reason, const char* reason_name, const std::string& sentence) {
-    if (sentence.empty() || report.status.reason != 0 || node_.gate().isPaused()) return;
+    if (sentence.empty() || report.status.reason != 0 || node_.gate().isPaused() || !is_wanted) return;
     report.status = {urban_nav_core::Health::Degraded, reason, sentence};
     report.reason_name = reason_name;
   };

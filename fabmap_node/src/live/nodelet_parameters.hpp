@@ -9,8 +9,8 @@ namespace fabmap_node {
 
 /// Parameters of the nodelet of place recognition: transport and queues. One member per row of nodeletTable().
 struct NodeletParameters {
-  int cameras;  // cameras of the panoramic head; 1: the left camera
-  bool compressed;
+  int cameras;  // cameras of the panoramic head; 1: the left camera; 0: what sends images
+  bool compressed, left_compressed;
   int queue_size;       // images
   double drain_s;       // s
   double max_lateness;  // s

@@ -24,6 +24,8 @@ const Table<NodeletParameters>& nodeletTable() {
           {"compressed", &P::compressed, "", true, false, false, {},
            "Image topics are sensor_msgs/CompressedImage; /compressed is appended to their names.",
            "docs/architecture.md"},
+          {"always", &P::always, "", false, false, true, {},
+           "Returns are labelled even if no topic of the labels has a subscriber.", "docs/architecture.md"},
           {"queue_size", &P::queue_size, "messages", 4000, 2, 1000000, {},
            "Largest number of waiting inputs; beyond it the oldest is dropped and counted.", "docs/architecture.md"},
           urban_nav_live::drainRow(&P::drain_s),

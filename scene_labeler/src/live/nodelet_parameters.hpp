@@ -10,7 +10,7 @@ namespace scene_labeler {
 /// Parameters of the nodelet, one member per row of nodeletTable().
 struct NodeletParameters {
   std::string base_frame, odom_frame;
-  bool compressed;
+  bool compressed, always;
   int queue_size;  // messages
   double drain_s;  // s
 
