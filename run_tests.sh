@@ -168,6 +168,16 @@ run_ros_test() {
   bash -c "$2" >"$ROS_HOME/test.log" 2>&1
 }
 
+# say_ends ROS_HOME: of a failed ROS test, which processes died and what it wrote last.
+say_ends() {
+  local log
+  if ! grep -q 'RESULT: .*FAIL' "$1/test.log"; then return; fi
+  grep -hE 'has died|exit code' "$1/test.log" "$1"/log/*.log "$1"/log/*/*.log 2>/dev/null | sort -u | tail -n 10 >&2 || true
+  for log in "$1"/log/*/*-stdout.log; do
+    if grep -qE '^\[==========\]|^Ran ' "$log" 2>/dev/null; then tail -n 25 "$log" >&2; fi
+  done
+}
+
 # The rostests, two at a time: several take the time they take, and leave the processors idle.
 run_ros_tests() {
   local target number=0 status=0
@@ -178,6 +188,7 @@ run_ros_tests() {
     printf '%d\0%s\0' $((number++)) "$(ninja -C "$ws/build" -t commands "$target" | tail -n 1)"
   done | timeout -k 10 3600 xargs -0 -n 2 -P 2 bash -c 'run_ros_test "$@"' run_ros_test || status=$?
   cat "$build"/ros_home/*/test.log >"$ws/rostest.log"
+  for number in "$build"/ros_home/*; do say_ends "$number"; done
   say_troubles "$ws/rostest.log"
   [ $status -lt 124 ]
 }

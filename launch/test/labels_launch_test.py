@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""bag.launch with labels:=true over a simulated drive: labels as a user sees them in rviz, and one that is corrected by a click."""
+"""bag.launch over a simulated drive: labels as a user sees them in rviz, and one that is corrected by a click."""
 import sys
 from pathlib import Path
 

@@ -54,7 +54,8 @@ class KeyframeImages {
   /// Begins the next round after the stamps of the images have jumped back.
   void restart() {
     are_images_ahead_ = !next_round_ && newest_pose_;
-    poses_.erase(poses_.begin(), next_round_ ? poses_.begin() + static_cast<std::ptrdiff_t>(*next_round_) : poses_.end());
+    const std::size_t ended = next_round_.value_or(poses_.size());
+    poses_.erase(poses_.begin(), poses_.begin() + static_cast<std::ptrdiff_t>(ended));
     next_round_.reset();
     images_.clear();
     first_image_.reset();
@@ -76,10 +77,10 @@ class KeyframeImages {
   static constexpr std::size_t kMostWaiting = 64;  // frames: 3 s of a camera at 20 Hz
 
   /// Returns the poses that belong to the images.
-  std::size_t posesOfRound() const { return are_images_ahead_ ? 0 : next_round_.value_or(poses_.size()); }
+  std::size_t posesInRound() const { return are_images_ahead_ ? 0 : next_round_.value_or(poses_.size()); }
   void match() {
     if (first_image_ && !images_.empty() && images_.back().stamp - *first_image_ >= patience_) is_patience_over_ = true;
-    while (posesOfRound() > 0 && !images_.empty()) {
+    while (posesInRound() > 0 && !images_.empty()) {
       const urban_nav_core::StampedPose& pose = poses_.front();
       while (!images_.empty() && images_.front().stamp < pose.stamp) images_.pop_front();
       if (images_.empty()) return;

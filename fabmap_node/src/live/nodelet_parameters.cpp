@@ -19,14 +19,14 @@ const Table<NodeletParameters>& nodeletTable() {
       "",
       {
           {"cameras", &P::cameras, "", std::int64_t{0}, std::int64_t{0}, std::int64_t{5}, {},
-           "Number of cameras of the panoramic head, on ladybug/camera0 ... 4; 1: each image of the left camera instead; "
-           "0: the head, or the left camera at keyframes if no image of the head arrives within 3 s.",
+           "Cameras of the panoramic head, on ladybug/camera0 ... 4; 1: each left image instead; 0: the head, or left "
+           "images at keyframes if the head sends none in 3 s.",
            "paper 3"},
           {"compressed", &P::compressed, "", true, false, false, {},
            "Image topics are sensor_msgs/CompressedImage; /compressed is appended to their names.",
            "docs/architecture.md"},
           {"left_compressed", &P::left_compressed, "", false, false, true, {},
-           "The left images are sensor_msgs/CompressedImage, if cameras = 0.", "docs/architecture.md"},
+           "The same of left images, if cameras = 0.", "docs/architecture.md"},
           {"queue_size", &P::queue_size, "messages", std::int64_t{100}, std::int64_t{5}, std::int64_t{10000}, {},
            "Largest number of waiting images and poses; beyond it the oldest is dropped and counted.",
            "docs/architecture.md"},

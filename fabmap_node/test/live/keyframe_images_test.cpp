@@ -14,11 +14,11 @@ using urban_nav_core::StampNs;
 constexpr StampNs kFramePeriod = 50'000'000, kBegin = 1'000'000'000'000;
 constexpr double kFrameDistance = 0.1;  // m
 
-StampNs stampOf(int frame) { return kBegin + frame * kFramePeriod; }
-urban_nav_core::StampedPose poseOf(int frame) {
-  return {stampOf(frame), {urban_nav_core::Quaterniond::Identity(), {kFrameDistance * frame, 0.0, 0.0}}};
+StampNs toStamp(int frame) { return kBegin + frame * kFramePeriod; }
+urban_nav_core::StampedPose toPose(int frame) {
+  return {toStamp(frame), {urban_nav_core::Quaterniond::Identity(), {kFrameDistance * frame, 0.0, 0.0}}};
 }
-std::string nameOf(int frame) { return "frame " + std::to_string(frame); }
+std::string toName(int frame) { return "frame " + std::to_string(frame); }
 
 using Images = KeyframeImages<std::string>;
 
@@ -29,11 +29,11 @@ std::vector<std::string> takeAll(Images& images) {
 }
 
 /// Frames of the keyframe selection, by the same odometry.
-std::vector<std::string> keyframesOf(int frames, int lost = -1) {
+std::vector<std::string> selectFrom(int frames, int lost = -1) {
   urban_nav_registration::KeyframeSelector selector((urban_nav_registration::Parameters()));
   std::vector<std::string> names;
   for (int i = 0; i < frames; ++i)
-    if (i != lost && selector.select(poseOf(i).pose)) names.push_back(nameOf(i));
+    if (i != lost && selector.select(toPose(i).pose)) names.push_back(toName(i));
   return names;
 }
 
@@ -44,14 +44,14 @@ TEST(KeyframeImages, AreThoseOfTheSelectionWhicheverArrivesFirst) {
     for (int i = 0; i < kFrames + kDelay; ++i) {
       const int late = i - kDelay;
       if (are_poses_late) {
-        if (i < kFrames) images.addImage(stampOf(i), nameOf(i));
-        if (late >= 0) images.addPose(poseOf(late));
+        if (i < kFrames) images.addImage(toStamp(i), toName(i));
+        if (late >= 0) images.addPose(toPose(late));
       } else {
-        if (i < kFrames) images.addPose(poseOf(i));
-        if (late >= 0) images.addImage(stampOf(late), nameOf(late));
+        if (i < kFrames) images.addPose(toPose(i));
+        if (late >= 0) images.addImage(toStamp(late), toName(late));
       }
     }
-    EXPECT_EQ(takeAll(images), keyframesOf(kFrames)) << are_poses_late;
+    EXPECT_EQ(takeAll(images), selectFrom(kFrames)) << are_poses_late;
   }
 }
 
@@ -60,22 +60,22 @@ TEST(KeyframeImages, AFrameWithoutImageOrPoseIsLeftOut) {
   for (const bool is_image_lost : {true, false}) {
     Images images(urban_nav_registration::Parameters(), 0);
     for (int i = 0; i < kFrames; ++i) {
-      if (i != kLost || !is_image_lost) images.addImage(stampOf(i), nameOf(i));
-      if (i != kLost || is_image_lost) images.addPose(poseOf(i));
+      if (i != kLost || !is_image_lost) images.addImage(toStamp(i), toName(i));
+      if (i != kLost || is_image_lost) images.addPose(toPose(i));
     }
-    EXPECT_EQ(takeAll(images), keyframesOf(kFrames, kLost)) << is_image_lost;
+    EXPECT_EQ(takeAll(images), selectFrom(kFrames, kLost)) << is_image_lost;
   }
 }
 
 TEST(KeyframeImages, WaitForAnotherSource) {
   Images images(urban_nav_registration::Parameters(), 10 * kFramePeriod);
   for (int i = 0; i < 10; ++i) {
-    images.addImage(stampOf(i), nameOf(i));
-    images.addPose(poseOf(i));
+    images.addImage(toStamp(i), toName(i));
+    images.addPose(toPose(i));
     EXPECT_FALSE(images.take()) << i;
     EXPECT_FALSE(images.isPatienceOver());
   }
-  images.addImage(stampOf(10), nameOf(10));
+  images.addImage(toStamp(10), toName(10));
   EXPECT_TRUE(images.isPatienceOver());
   ASSERT_TRUE(images.take());
 }
@@ -93,12 +93,12 @@ TEST(KeyframeImages, RoundsAreApartWhicheverJumpsFirst) {
         for (const std::string& each : takeAll(images)) taken.push_back(each);
         images.restart();
       }
-      if (image >= 0 && image < 2 * kFrames) images.addImage(stampOf(image % kFrames), nameOf(image % kFrames));
-      if (pose >= 0 && pose < 2 * kFrames) images.addPose(poseOf(pose % kFrames));
+      if (image >= 0 && image < 2 * kFrames) images.addImage(toStamp(image % kFrames), toName(image % kFrames));
+      if (pose >= 0 && pose < 2 * kFrames) images.addPose(toPose(pose % kFrames));
     }
     for (const std::string& each : takeAll(images)) taken.push_back(each);
-    std::vector<std::string> expected = keyframesOf(kFrames - pose_delay);  // later poses came after the jump
-    for (const std::string& each : keyframesOf(kFrames)) expected.push_back(each);
+    std::vector<std::string> expected = selectFrom(kFrames - pose_delay);  // later poses came after the jump
+    for (const std::string& each : selectFrom(kFrames)) expected.push_back(each);
     EXPECT_EQ(taken, expected) << overlap;
   }
 }

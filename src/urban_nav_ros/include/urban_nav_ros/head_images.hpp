@@ -23,7 +23,7 @@ class HeadImages {
  public:
   static constexpr std::size_t kHeadCameras = topics::kPanoramaImages.size();
   struct Options {
-    int cameras = 0;  ///< of the head; 1: the left camera; 0: the head and the left camera, which is then the last number
+    int cameras = 0;  ///< of the head; 1: the left camera; 0: the head and, with the next number, the left camera
     bool compressed = true, left_compressed = false;
     int queue = 100;       ///< messages
     double timeout = 2.0;  ///< s without images after which a camera is silent
@@ -31,7 +31,8 @@ class HeadImages {
   /// Called in a thread of ROS.
   using Take = std::function<void(std::size_t camera, RecordedImage image)>;
 
-  HeadImages(StageNode& node, const Options& options, Take take) : node_(node), options_(options), take_(std::move(take)) {
+  HeadImages(StageNode& node, const Options& options, Take take)
+      : node_(node), options_(options), take_(std::move(take)) {
     if (options.compressed) subscribeHead<sensor_msgs::CompressedImage>();
     else subscribeHead<sensor_msgs::Image>();
     if (options.cameras > 0) return;

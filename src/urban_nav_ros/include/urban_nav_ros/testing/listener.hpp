@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "urban_nav_ros/testing/crash_trace.hpp"  // of every test of a nodelet
+
 namespace urban_nav_ros::testing {
 
 /// Subscriber in the rostest of a nodelet: keeps all messages on the given topics, in the thread of the test.
