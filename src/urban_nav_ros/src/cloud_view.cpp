@@ -21,4 +21,25 @@ urban_nav_core::CloudView toCloudView(const sensor_msgs::PointCloud2& message) {
   return view;
 }
 
+sensor_msgs::PointCloud2 toCloudMessage(const urban_nav_core::CloudView& view, const std::string& frame) {
+  sensor_msgs::PointCloud2 message;
+  message.header.stamp = toRosTime(view.stamp);
+  message.header.frame_id = frame;
+  message.width = view.width;
+  message.height = view.height;
+  message.point_step = static_cast<std::uint32_t>(view.point_step);
+  message.row_step = static_cast<std::uint32_t>(view.row_step);
+  message.is_bigendian = view.is_big_endian ? 1 : 0;
+  message.is_dense = 0;  // points without a return may be NaN
+  for (const urban_nav_core::CloudField& field : view.fields) {
+    sensor_msgs::PointField& named = message.fields.emplace_back();
+    named.name = field.name;
+    named.offset = field.offset;
+    named.datatype = static_cast<std::uint8_t>(field.number);
+    named.count = field.count;
+  }
+  message.data.assign(view.data, view.data + view.size);
+  return message;
+}
+
 }  // namespace urban_nav_ros

@@ -16,11 +16,11 @@ struct Converted {
   std::vector<std::string> files = {};         ///< files of a conversion into several; empty: one
 };
 
-/// Converts a folder of KITTI or EuRoC to a bag: rectified images with camera_info, static tf, IMU and truth if
-/// present. `ahead`: decodes images in a second thread, without effect on the bag. Throws DataError naming the file
-/// for a missing or damaged image; then writes no bag.
+/// Converts a folder of KITTI or EuRoC to a bag: rectified images with camera_info, static tf, sweeps of the LiDAR, IMU
+/// and truth if present. `ahead`: decodes images in a second thread, without effect on the bag. Throws DataError naming
+/// the file for a missing or damaged image or sweep; then writes no bag.
 Converted convertStereoFolder(const std::string& folder, const std::string& bag,
-                              const urban_nav_input::SourceOptions& options, Console& console, bool ahead = true);
+                              urban_nav_input::SourceOptions options, Console& console, bool ahead = true);
 
 /// Converts a folder of the New College data set (or only its .alog) to a bag: lasers with reflectance, odometry in
 /// REP-103 axes, stereo and panoramic images if present. Throws UserError naming file and line for damaged parts; then

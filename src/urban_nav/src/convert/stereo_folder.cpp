@@ -7,6 +7,7 @@
 #include "convert/bag_writer.hpp"
 #include "convert/convert.hpp"
 #include "convert/stereo_topics.hpp"
+#include "convert/sweep_topics.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_input/folder/euroc_layout.hpp"
@@ -38,8 +39,9 @@ geometry_msgs::PoseStamped truthMessage(const urban_nav_core::StampedPose& pose,
 /// Messages other than images, in the order of stamps.
 class Companions {
  public:
-  Companions(std::vector<sensor_msgs::Imu> imu, std::optional<urban_nav_input::TrajectoryFile> truth, StampNs shift)
-      : imu_(std::move(imu)), truth_(std::move(truth)), shift_(shift) {}
+  Companions(std::vector<sensor_msgs::Imu> imu, KittiSweepTopic sweeps,
+             std::optional<urban_nav_input::TrajectoryFile> truth, StampNs shift)
+      : imu_(std::move(imu)), sweeps_(std::move(sweeps)), truth_(std::move(truth)), shift_(shift) {}
 
   /// Writes all messages up to a stamp of the folder.
   void writeUntil(StampNs stamp, BagWriter& bag) {
@@ -49,6 +51,7 @@ class Companions {
       message.header.stamp = urban_nav_ros::toRosTime(at);
       bag.write(urban_nav_ros::topics::fromRoot(urban_nav_ros::topics::kImu), at, message);
     }
+    sweeps_.writeUntil(stamp, shift_, bag);
     if (!truth_) return;
     for (; next_truth_ < truth_->trajectory.size() && truth_->trajectory[next_truth_].stamp <= stamp; ++next_truth_) {
       const urban_nav_core::StampedPose& pose = truth_->trajectory[next_truth_];
@@ -59,6 +62,7 @@ class Companions {
 
  private:
   std::vector<sensor_msgs::Imu> imu_;
+  KittiSweepTopic sweeps_;
   std::optional<urban_nav_input::TrajectoryFile> truth_;
   StampNs shift_;
   std::size_t next_imu_ = 0, next_truth_ = 0;
@@ -71,7 +75,8 @@ void refuseFaults(const urban_nav_input::SourceItem& input) {
 }  // namespace
 
 Converted convertStereoFolder(const std::string& folder, const std::string& path,
-                              const urban_nav_input::SourceOptions& options, Console& console, bool ahead) {
+                              urban_nav_input::SourceOptions options, Console& console, bool ahead) {
+  options.with_sweeps = true;
   std::unique_ptr<urban_nav_input::Source> source = urban_nav_input::openSource({folder}, options);
   if (ahead) source = urban_nav_input::readAhead(std::move(source), 4);
   const urban_nav_input::SourceInfo& info = source->info();
@@ -82,7 +87,8 @@ Converted convertStereoFolder(const std::string& folder, const std::string& path
     converted.notes.push_back("stamps begin at zero: shifted by 1000000000 s, since zero is not a valid ROS time");
 
   std::vector<sensor_msgs::Imu> imu;
-  std::vector<geometry_msgs::TransformStamped> transforms = stereoTransforms(info.camera, info.T_base_camera);
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  if (info.has_images) transforms = stereoTransforms(info.camera, info.T_base_camera);
   if (urban_nav_input::inputKind(folder) == urban_nav_input::InputKind::EurocFolder) {
     for (const urban_nav_input::EurocImu& row : urban_nav_input::readEurocImu(urban_nav_input::eurocFolder(folder)))
       imu.push_back(urban_nav_input::toImuMessage(row));
@@ -91,7 +97,13 @@ Converted convertStereoFolder(const std::string& folder, const std::string& path
           urban_nav_core::frames::kBaseLink, urban_nav_core::frames::kImu,
           urban_nav_input::readEurocRig(urban_nav_input::eurocFolder(folder)).T_base_body));
   }
-  Companions companions(std::move(imu), urban_nav_input::findTruth({{folder}}, info, options), shift);
+  KittiSweepTopic sweeps(folder, options.rate);
+  if (const auto T_camera_lidar = sweeps.T_camera_lidar())
+    transforms.push_back(urban_nav_ros::toStaticTransform(urban_nav_core::frames::kBaseLink, sweeps.frame(),
+                                                          info.T_base_camera * *T_camera_lidar));
+  for (const std::string& note : sweeps.notes()) converted.notes.push_back(note);
+  Companions companions(std::move(imu), std::move(sweeps), urban_nav_input::findTruth({{folder}}, info, options),
+                        shift);
 
   BagWriter bag(path);
   bag.writeStaticTransforms(info.first + shift, transforms);
@@ -99,6 +111,7 @@ Converted convertStereoFolder(const std::string& folder, const std::string& path
   std::int64_t frames = 0;
   while (const std::optional<urban_nav_input::SourceItem> input = source->next()) {
     refuseFaults(*input);
+    if (!input->has_pair) continue;  // of a LiDAR
     const urban_nav_core::StereoPair& pair = input->assembled.pair;
     companions.writeUntil(pair.stamp, bag);
     writeStereo(pair, pair.stamp + shift, info.camera, bag);

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "folder/kitti_sweep_stream.hpp"
 
-#include <algorithm>
-
 #include "urban_nav_core/laser/cloud/cloud_survey.hpp"
 #include "urban_nav_core/types/error.hpp"
-#include "urban_nav_input/folder/kitti_layout.hpp"
 #include "urban_nav_input/recording/bag_topics.hpp"
 
 namespace urban_nav_input {
@@ -30,15 +27,8 @@ urban_nav_core::CloudOptions chooseOptions(const KittiSweepLayout& layout, const
 }  // namespace
 
 KittiSweepStream::KittiSweepStream(const KittiSweepLayout& layout, const urban_nav_core::Pose& T_base_camera,
-                                   const SourceOptions& options) {
-  const std::map<std::int64_t, std::string> files = listKittiSweeps(layout);
-  const KittiLayout places{layout.folder, layout.files, layout.files, urban_nav_core::KittiPair::Grey};
-  const std::pair<std::int64_t, std::int64_t> numbers(files.begin()->first, files.rbegin()->first);
-  requireNumberedFrames(layout.files, numbers, files.size());
-  const std::vector<urban_nav_core::StampNs> stamps = stampKittiFrames(places, "sweeps", numbers, options.rate, notes_);
-  for (const auto& [number, path] : files)
-    files_.emplace_back(stamps[static_cast<std::size_t>(number - numbers.first)], path);
-  std::stable_sort(files_.begin(), files_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+                                   const SourceOptions& options)
+    : files_(stampKittiSweeps(layout, options.rate, notes_)) {
   const std::optional<urban_nav_core::Pose> T_camera_lidar = readKittiLidar(layout.folder);
   if (!T_camera_lidar) {
     notes_.push_back(layout.files +

@@ -38,8 +38,8 @@ class KittiSweepStream {
  private:
   void survey();
 
-  std::vector<std::pair<urban_nav_core::StampNs, std::string>> files_;
   std::vector<std::string> notes_;
+  std::vector<std::pair<urban_nav_core::StampNs, std::string>> files_;
   std::optional<LidarStream> stream_;
   std::size_t position_ = 0;
 };

@@ -11,6 +11,7 @@
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/text_file.hpp"
 #include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/folder/kitti_layout.hpp"
 
 namespace urban_nav_input {
 
@@ -66,6 +67,21 @@ std::map<std::int64_t, std::string> listKittiSweeps(const KittiSweepLayout& layo
   return sweeps;
 }
 
+std::vector<std::pair<urban_nav_core::StampNs, std::string>> stampKittiSweeps(const KittiSweepLayout& layout,
+                                                                             double rate,
+                                                                             std::vector<std::string>& notes) {
+  const std::map<std::int64_t, std::string> files = listKittiSweeps(layout);
+  const KittiLayout places{layout.folder, layout.files, layout.files, urban_nav_core::KittiPair::Grey};
+  const std::pair<std::int64_t, std::int64_t> numbers(files.begin()->first, files.rbegin()->first);
+  requireNumberedFrames(layout.files, numbers, files.size());
+  const std::vector<urban_nav_core::StampNs> stamps = stampKittiFrames(places, "sweeps", numbers, rate, notes);
+  std::vector<std::pair<urban_nav_core::StampNs, std::string>> stamped;
+  for (const auto& [number, path] : files)
+    stamped.emplace_back(stamps[static_cast<std::size_t>(number - numbers.first)], path);
+  std::stable_sort(stamped.begin(), stamped.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return stamped;
+}
+
 std::optional<urban_nav_core::Pose> readKittiLidar(const std::string& folder) {
   const std::string calibration = (fs::path(folder) / "calib.txt").string();
   if (fs::exists(calibration))
@@ -119,7 +135,7 @@ void KittiCloud::addTimesAndRings(std::size_t points) {
   }
 }
 
-urban_nav_core::CloudView KittiCloud::view() const {
+urban_nav_core::CloudView KittiCloud::view(bool is_deskewed) const {
   using Number = CloudField::Number;
   urban_nav_core::CloudView view;
   view.stamp = stamp_;
@@ -130,8 +146,8 @@ urban_nav_core::CloudView KittiCloud::view() const {
   view.fields = {{"x", 0, Number::Float32},
                  {"y", 4, Number::Float32},
                  {"z", 8, Number::Float32},
-                 {"intensity", 12, Number::Float32},
-                 {"azimuth", kStored, Number::Float32}};
+                 {"intensity", 12, Number::Float32}};
+  if (!is_deskewed) view.fields.push_back({"azimuth", kStored, Number::Float32});
   if (has_rings_) view.fields.push_back({"ring", kStored + 4, Number::UInt16});
   view.data = bytes_.data();
   view.size = bytes_.size();

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "urban_nav_core/geometry/se3.hpp"
@@ -27,6 +28,11 @@ std::optional<KittiSweepLayout> findKittiSweeps(const std::string& folder);
 
 /// Returns the files of sweeps, NUMBER.bin, by their number.
 std::map<std::int64_t, std::string> listKittiSweeps(const KittiSweepLayout& layout);
+/// Returns their stamps, as those of images (stampKittiFrames()), and files, in order of time. Throws UserError for
+/// invalid stamps.
+std::vector<std::pair<urban_nav_core::StampNs, std::string>> stampKittiSweeps(const KittiSweepLayout& layout,
+                                                                             double rate,
+                                                                             std::vector<std::string>& notes);
 
 /// Returns T_camera_lidar of the rectified left camera: the row `Tr` of calib.txt, else calib_velo_to_cam.txt with the
 /// rectification of calib_cam_to_cam.txt, in the folder or above it; nullopt without either. Throws UserError for
@@ -42,8 +48,8 @@ class KittiCloud {
   /// Does not throw: fault() states what cannot be read.
   KittiCloud(const std::string& path, urban_nav_core::StampNs stamp);
 
-  /// Returns the view of this object, which outlives it.
-  urban_nav_core::CloudView view() const;
+  /// Returns the view of this object, which outlives it. `is_deskewed`: without times, which have no meaning then.
+  urban_nav_core::CloudView view(bool is_deskewed = false) const;
   /// Returns the defect of the file; empty without one.
   const std::string& fault() const { return fault_; }
 
