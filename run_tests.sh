@@ -5,6 +5,7 @@
 #   ./run_tests.sh --since COMMIT   the packages that differ from that commit, their dependents and the command alone
 #   ./run_tests.sh --benches        the programs in bench/ are compiled as well
 #   ./run_tests.sh --sanitize       all ROS-free cores under the sanitizers, every reader fuzzed for 20 s
+#   ./run_tests.sh --coverage       gtest in a build that counts lines and branches; a table for each package
 #   ./run_tests.sh --tidy           each source compiled alone; clang-format and clang-tidy over all of them as well
 # --since selects by scripts/affected.py, which says on standard error what it selected and why. Lint, catkin_lint and the tables of
 # the documents are checked in any case. Everything is tested where a ground package, a script or the build changed, or more than half
@@ -19,12 +20,13 @@ cd "$root"
 
 usage() { sed -n 's/^#   //p' "$0" >&2; exit 2; }
 
-sanitize=no tidy=no benches=no since=''
+sanitize=no tidy=no benches=no coverage=no since=''
 while [ $# -gt 0 ]; do
   case $1 in
     --sanitize) sanitize=yes ;;
     --tidy) tidy=yes ;;
     --benches) benches=yes ;;
+    --coverage) coverage=yes ;;
     --since)
       case ${2:-} in '' | -*) say "--since: the name of a commit is missing"; usage ;; esac
       since=$2
@@ -133,6 +135,18 @@ build_cores() (
   compile "$build/cores" "Building the sanitized cores" "${targets[@]}"
 )
 
+# Everything once more, with counters of lines and branches.
+build_coverage() (
+  local targets
+  lock
+  configure "$build/coverage" -DCATKIN_ENABLE_TESTING=ON -DURBAN_NAV_COVERAGE=ON -DURBAN_NAV_UNITY="${URBAN_NAV_UNITY:-ON}" \
+    -DURBAN_NAV_UNITY_BATCH="${URBAN_NAV_UNITY_BATCH:-16}" -DURBAN_NAV_TEST_SHARDS="$(nproc)"
+  mapfile -t targets < <(wanted_targets "$build/coverage" | grep -v -- '-rostest$')
+  if [ ${#targets[@]} = 0 ]; then return; fi
+  find "$build/coverage" -name '*.gcda' -delete
+  compile "$build/coverage" "Building with counters" "${targets[@]}"
+)
+
 # list_tests FOLDER KIND: catkin's own targets for the selected tests of one kind (gtest, sanitized, python, rostest).
 list_tests() {
   local packages='[A-Za-z0-9_]*'
@@ -219,7 +233,14 @@ tools=()
 if [ $tidy = yes ]; then tools=(clang-format clang-tidy clang-tools); fi
 step "packages" install_packages "${tools[@]}" || true
 if [ -n "$since" ]; then select_packages; fi
-if [ $sanitize = no ]; then
+if [ $coverage = yes ]; then
+  step "packages for coverage" install_packages gcovr || true
+  if anything_selected && step "build with counters" build_coverage; then
+    step "gtest" run_group "$build/coverage" gtest
+    step "coverage" scripts/coverage.py "$build/coverage/build" || true
+    results+=("$build/coverage/build/test_results")
+  fi || true
+elif [ $sanitize = no ]; then
   seconds=${URBAN_NAV_FUZZ_SECONDS:-2}
   step "lint" run_lint || true
   step "API pages" scripts/api_pages.py ${since:+--since "$since"} || true

@@ -7,6 +7,7 @@ include(CheckCXXCompilerFlag)
 
 option(URBAN_NAV_WERROR "Warnings are errors" OFF)
 option(URBAN_NAV_SANITIZE "Address and undefined-behaviour sanitizer" OFF)
+option(URBAN_NAV_COVERAGE "Count which lines and branches run (gcov)" OFF)
 option(URBAN_NAV_CORES_ONLY "Build only the libraries that do not depend on ROS" OFF)
 option(URBAN_NAV_BENCH "Configure the programs in bench/ (target urban_nav_benches builds them)" OFF)
 option(URBAN_NAV_PRECOMPILE "Precompile the most common headers, once per target" OFF)
@@ -53,6 +54,11 @@ set(urban_nav_sanitizers -fsanitize=address,undefined -fno-sanitize=null,alignme
 if(URBAN_NAV_SANITIZE)
   list(APPEND urban_nav_compile_options ${urban_nav_sanitizers})
   list(APPEND urban_nav_link_options -fsanitize=address,undefined)
+endif()
+
+if(URBAN_NAV_COVERAGE)  # without inlining, so that each line is counted in its own file
+  list(APPEND urban_nav_compile_options --coverage -fprofile-update=atomic -O1 -fno-inline -Wno-maybe-uninitialized)
+  list(APPEND urban_nav_link_options --coverage)
 endif()
 
 # urban_nav_precompile(TARGET HEADER...): precompiles these headers for the target, if it has enough files to benefit.

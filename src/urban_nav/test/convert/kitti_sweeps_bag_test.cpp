@@ -83,15 +83,15 @@ TEST(KittiSweepsBag, SweepsOfABagAreThoseOfTheFolder) {
   expectSameSweeps(readSweeps(folder.file("raw")), sweeps);
 }
 
-TEST(KittiSweepsBag, DeskewedSweepsHaveNoTimesAndTheUserIsTold) {
+TEST(KittiSweepsBag, DeskewedSweepsHaveNoTimesAndANoteStatesIt) {
   const TemporaryFolder folder;
   Console console;
   writeSweepFolder(folder.file("deskewed"), "velodyne");
   const Converted converted = convertStereoFolder(folder.file("deskewed"), folder.file("deskewed.bag"), {}, console);
-  bool is_told = false;
+  bool is_stated = false;
   for (const std::string& note : converted.notes)
-    is_told = is_told || note.find("input.points_deskewed=yes") != std::string::npos;
-  EXPECT_TRUE(is_told);
+    is_stated = is_stated || note.find("input.points_deskewed=yes") != std::string::npos;
+  EXPECT_TRUE(is_stated);
   const std::vector<SweepInput> sweeps = readSweeps(folder.file("deskewed.bag"), true);
   ASSERT_EQ(sweeps.size(), std::size_t{kSweepCount});
   for (const SweepInput& sweep : sweeps)
