@@ -81,6 +81,16 @@ def blurred(sigma):
     return alter
 
 
+def zoomed(percent):
+    """The image of a lens whose focal length grew."""
+    def alter(message):
+        grey = np.frombuffer(message.data, np.uint8).reshape(message.height, message.step)[:, :message.width]
+        x, y = message.width / 2, message.height / 2
+        image = cv2.warpAffine(grey, cv2.getRotationMatrix2D((x, y), 0, 1 + percent / 100), (message.width, message.height), borderMode=cv2.BORDER_REPLICATE)
+        message.step, message.data = message.width, image.tobytes()
+    return alter
+
+
 def late(seconds):
     def alter(message):
         message.header.stamp += rospy.Duration.from_sec(seconds)
@@ -185,6 +195,7 @@ FAULTS = (
     Fault("ranges of the lasers too long", "%", (1.0, 3.0, 10.0), LASERS, r"laser|lengths|scale", changed(LASERS, range_scale, 0.0)),
     Fault("a laser turned on its mount", "deg", (1.0, 3.0, 10.0), (LEFT,), r"laser", changed((LEFT,), scan_turn, MIDDLE), MIDDLE),
     Fault("right camera frozen", "s", (0.3, 1.0, 3.0), IMAGES[1:], PAIR, lambda size: frozen(IMAGES[1:], size), MIDDLE),
+    Fault("lens of the right camera zooms", "%", (0.3, 1.0, 3.0), IMAGES[1:], PAIR, changed(IMAGES[1:], zoomed, MIDDLE), MIDDLE),
     Fault("lenses out of focus", "px", (1.0, 2.0, 4.0), IMAGES, PAIR, changed(IMAGES, blurred, MIDDLE), MIDDLE),
 )
 

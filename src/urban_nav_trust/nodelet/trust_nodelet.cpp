@@ -36,6 +36,7 @@ std::optional<LiveFrame> toFrame(const urban_nav_msgs::VoStatistics& message) {
   frame.health = *health;
   frame.compared.disparity_step_px = message.disparity_step_px;
   frame.compared.disparity_step_sigma_px = message.disparity_step_sigma_px;
+  frame.compared.reprojection_px = message.reprojection_px;
   frame.compared.right_turn = Eigen::Vector3d(message.right_turn.data());
   frame.compared.turn = Eigen::Vector3d(message.turn.data());
   frame.compared.turn_error = Eigen::Vector3d(message.turn_error.data());

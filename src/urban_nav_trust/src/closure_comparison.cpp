@@ -83,4 +83,34 @@ void testClosures(const std::vector<ClosureDifference>& closures, TestResults& r
   testKind(closures, true, results);
 }
 
+void testPlanes(const std::vector<ClosureDifference>& planes, const char* absent_reason, TestResults& results) {
+  std::vector<Compared> compared;
+  for (const ClosureDifference& each : planes)
+    if (const std::optional<Compared> one = compare(each)) compared.push_back(*one);
+  if (compared.empty()) {
+    results.absent.push_back({kPassTest, absent_reason});
+    return;
+  }
+  std::sort(compared.begin(), compared.end(),
+            [](const Compared& a, const Compared& b) { return a.p_value < b.p_value; });
+  const std::size_t middle = compared.size() / 2;
+  const Compared& median = compared[middle];
+  const auto count = static_cast<double>(compared.size());
+  ConsistencyTest test;
+  test.name = kPassTest;
+  test.interval = median.closure->interval;
+  test.statistic = median.squared_distance;
+  test.degrees_of_freedom = static_cast<double>(median.closure->difference.size());
+  test.p_value = std::min(1.0, count / static_cast<double>(middle + 1) * median.p_value);
+  test.sentence = "Planes that the lasers measured in two passes (" + std::to_string(compared.size()) +
+                  " constraints) differ from odometry by " + formatNumber(median.closure->distance_m) + " m and " +
+                  formatNumber(median.closure->angle_rad * 180.0 / M_PI) + " deg in the median, " +
+                  formatNumber(std::sqrt(median.perAxis()), 3) + " times the stated standard deviation.";
+  test.remedy =
+      "The passes do not fit together: odometry drifts more than its covariance states, or a laser has moved on its "
+      "mount between them. Look at the walls in the map, and check the calibration of the stereo pair and of the "
+      "lasers (`urban_nav map --calibrate`).";
+  results.tests.push_back(std::move(test));
+}
+
 }  // namespace urban_nav_trust

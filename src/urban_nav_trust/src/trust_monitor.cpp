@@ -5,13 +5,16 @@ namespace urban_nav_trust {
 
 bool TrustMonitor::add(const urban_nav_core::FrameMeasurements& frame) {
   const bool moved = motion_.add(frame);
-  return offset_.add(frame) || moved;
+  const bool rose = reprojection_.add(frame);
+  return offset_.add(frame) || moved || rose;
 }
 
 TestResults TrustMonitor::results() const {
   TestResults results;
   if (const std::optional<ConsistencyTest> test = offset_.test()) results.tests.push_back(*test);
   else results.absent.push_back({kOffsetTest, "no stereo frames were compared with the landmarks of earlier ones"});
+  if (const std::optional<ConsistencyTest> test = reprojection_.test()) results.tests.push_back(*test);
+  else results.absent.push_back({kReprojectionTest, "no reprojection errors of stereo frames over two seconds"});
   for (ConsistencyTest& test : motion_.tests()) results.tests.push_back(std::move(test));
   for (AbsentMeasurement& missing : motion_.absent()) results.absent.push_back(std::move(missing));
   results.segments = offset_.segments();

@@ -90,5 +90,57 @@ TEST(ClosureComparison, NoClosureOrNoNumbersIsAbsent) {
   }
 }
 
+/// Constraints from planes of as many places as there are `seeds`, each with errors as stated.
+std::vector<ClosureDifference> planes(unsigned seed, int places, double scale = 1.0) {
+  std::vector<ClosureDifference> all;
+  for (int i = 0; i < places; ++i) all.push_back(row(100 * seed + static_cast<unsigned>(i), scale)[0]);
+  return all;
+}
+
+ConsistencyTest testPassesIn(const std::vector<ClosureDifference>& differences) {
+  TestResults results;
+  testPlanes(differences, "no lasers", results);
+  EXPECT_EQ(results.tests.size(), 1U);
+  EXPECT_TRUE(confirm(results).scales == ScaleEvidence().probabilities()) << "planes are no evidence on odometry";
+  return results.tests.empty() ? ConsistencyTest() : results.tests[0];
+}
+
+TEST(PlanePasses, PValuesOfSoundPassesAreAtLeastUniform) {
+  for (const int places : {1, 2, 8})
+    for (const double scale : {1.0, 5.0}) {
+      int below = 0;
+      for (unsigned seed = 1; seed <= 200; ++seed) {
+        const double p = testPassesIn(planes(seed, places, scale)).p_value;
+        below += p < 0.1 ? 1 : 0;
+        EXPECT_GT(p, 1e-5) << places << ", " << scale << ", " << seed;
+      }
+      EXPECT_LE(below, 31) << places << ", " << scale;  // 99 % of a binomial variable with 200 and 0.1
+    }
+}
+
+TEST(PlanePasses, ALaserThatMovedBetweenThePassesFails) {
+  std::vector<ClosureDifference> moved = planes(1, 8);
+  for (ClosureDifference& each : moved) each.difference[5] += 1.0;  // rad
+  const ConsistencyTest test = testPassesIn(moved);
+  EXPECT_EQ(test.name, kPassTest);
+  EXPECT_LT(test.p_value, 1e-5);
+  EXPECT_NE(test.sentence.find("8 constraints"), std::string::npos) << test.sentence;
+  EXPECT_FALSE(test.remedy.empty());
+}
+
+TEST(PlanePasses, AThirdOfThePlanesMayBeConfused) {
+  std::vector<ClosureDifference> some = planes(2, 9);
+  for (std::size_t i = 0; i < 3; ++i) some[i].difference[0] += 100.0;  // m
+  EXPECT_GT(testPassesIn(some).p_value, 0.01);
+}
+
+TEST(PlanePasses, WithoutPlanesItIsAbsentWithTheReason) {
+  TestResults results;
+  testPlanes({}, "no lasers", results);
+  EXPECT_TRUE(results.tests.empty());
+  ASSERT_EQ(results.absent.size(), 1U);
+  EXPECT_EQ(results.absent[0].reason, "no lasers");
+}
+
 }  // namespace
 }  // namespace urban_nav_trust

@@ -10,8 +10,10 @@ namespace urban_nav_trust {
 
 constexpr const char* kStereoClosureTest = "odometry_stereo_closures";
 constexpr const char* kLaserClosureTest = "odometry_laser_closures";
+constexpr const char* kPassTest = "plane_passes";
 
-/// A closure compared with the motion between its two poses by odometry only, without other closures.
+/// A closure, or a constraint from planes of two passes, compared with the motion between its two poses by odometry
+/// only, without other closures.
 struct ClosureDifference {
   Interval interval;  ///< from the earlier pose to the later one
   bool by_laser = false;
@@ -27,5 +29,12 @@ struct ClosureDifference {
 /// tests, absent tests and the evidence to `results`. Stereo closures confirm turns only, since they measure lengths
 /// with the same cameras. Derivation: docs/derivations/trust.md.
 void testClosures(const std::vector<ClosureDifference>& closures, TestResults& results);
+
+/// Tests planes measured in one pass of the lasers against the same planes in another one, each pass placed by
+/// odometry: `planes` are their constraints, whatever the pose graph decided on them. The p-value is at most twice the
+/// median of the p-values of all constraints, valid for any dependence between them (Rueger 1978): some planes may be
+/// confused, but not half of them. Odometry's covariance is too small by an unknown factor. Adds a test or an absent
+/// one. `absent_reason`: without planes.
+void testPlanes(const std::vector<ClosureDifference>& planes, const char* absent_reason, TestResults& results);
 
 }  // namespace urban_nav_trust

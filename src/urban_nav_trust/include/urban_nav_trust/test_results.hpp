@@ -24,7 +24,8 @@ struct Confirmation {
   ScaleWeights scales{};                ///< probabilities of covarianceScales()
   bool isComplete() const { return turns && lengths; }
 };
-/// Returns the confirmation. `disparity_offset` compares a stereo pair with itself and confirms nothing.
+/// Returns the confirmation. `disparity_offset` and `reprojection_error` compare a stereo pair with itself and confirm
+/// nothing.
 Confirmation confirm(const TestResults& results);
 
 /// Returns why a confirmation is incomplete: the component that was not compared, and the tests that could have done so

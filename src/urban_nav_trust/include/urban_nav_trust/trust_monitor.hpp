@@ -6,6 +6,7 @@
 #include "urban_nav_trust/motion_monitor.hpp"
 #include "urban_nav_trust/offset_monitor.hpp"
 #include "urban_nav_trust/parameters.hpp"
+#include "urban_nav_trust/reprojection_monitor.hpp"
 #include "urban_nav_trust/test_results.hpp"
 
 namespace urban_nav_trust {
@@ -13,7 +14,8 @@ namespace urban_nav_trust {
 /// Tests of one session, computed from the outputs of its stages, live and offline. Not thread-safe.
 class TrustMonitor {
  public:
-  explicit TrustMonitor(const Parameters& parameters) : offset_(parameters), motion_(parameters) {}
+  explicit TrustMonitor(const Parameters& parameters)
+      : offset_(parameters), reprojection_(parameters), motion_(parameters) {}
 
   /// Adds a stereo frame, in order of time. Returns whether it reveals a change of the rig.
   bool add(const urban_nav_core::FrameMeasurements& frame);
@@ -23,6 +25,7 @@ class TrustMonitor {
 
  private:
   OffsetMonitor offset_;
+  ReprojectionMonitor reprojection_;
   MotionMonitor motion_;
 };
 

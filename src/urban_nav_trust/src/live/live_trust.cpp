@@ -6,6 +6,8 @@
 #include "urban_nav_core/sequence/time_jump.hpp"
 #include "urban_nav_trust/closure_comparison.hpp"
 #include "urban_nav_trust/depth_comparison.hpp"
+#include "urban_nav_trust/fix_comparison.hpp"
+#include "urban_nav_trust/free_space_comparison.hpp"
 #include "urban_nav_trust/laser_mounting.hpp"
 #include "urban_nav_trust/session_comparisons.hpp"
 #include "urban_nav_trust/unavailable_tests.hpp"
@@ -20,7 +22,8 @@ constexpr urban_nav_core::StampNs kPeriod = 1'000'000'000;  // between estimates
 
 /// Tests that require a whole session.
 constexpr const char* kOffline[] = {kDepthScaleTest, kExchangeTest, kStereoClosureTest, kLaserClosureTest,
-                                    kGravityTest,    kLidarTest,    kLidarScaleTest,    kMountingTest};
+                                    kGravityTest,    kLidarTest,    kLidarScaleTest,    kMountingTest,
+                                    kFixTest,        kPassTest,     kFreeSpaceTest};
 
 bool isNews(const LiveEstimate& before, const LiveEstimate& now) {
   return before.frame.state != now.frame.state || before.frame.tests != now.frame.tests ||

@@ -58,29 +58,29 @@ Matrix6d constantCovariance(const SessionOdometry& run, StampNs a, StampNs b) {
   return covariance;
 }
 
-std::optional<ClosureDifference> compare(const MetricClosure& closure, const SessionOdometry& run,
-                                         const OdometryChain& chain) {
-  const std::optional<urban_nav_core::PoseWithCovariance> T_a_b = chain.between(closure.a.stamp, closure.b.stamp);
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> information(closure.measured.information);
+/// Compares a measured T_a_b with that of odometry between the same stamps; nullopt without one of both.
+std::optional<ClosureDifference> compare(StampNs a, StampNs b, const urban_nav_core::Constraint& measured,
+                                         const SessionOdometry& run, const OdometryChain& chain) {
+  const std::optional<urban_nav_core::PoseWithCovariance> T_a_b = chain.between(a, b);
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> information(measured.information);
   const double largest = information.eigenvalues().maxCoeff();
   if (!T_a_b || !(largest > 0.0)) return std::nullopt;
   const Eigen::Index free = (information.eigenvalues().array() <= kFreeInformation * largest).count(), known = 6 - free;
   const Eigen::MatrixXd axes = information.eigenvectors().rightCols(known);
-  const auto [first, last] = std::minmax(closure.a.stamp, closure.b.stamp);
+  const auto [first, last] = std::minmax(a, b);
   Matrix6d constants = constantCovariance(run, first, last);
-  if (closure.b.stamp < closure.a.stamp) {  // T_b_a is the inverse
+  if (b < a) {  // T_b_a is the inverse
     const Matrix6d turned =
         urban_nav_core::boxFromRight(T_a_b->pose) * urban_nav_core::leftFromBox(T_a_b->pose.inverse());
     constants = urban_nav_core::transformCovariance(turned, constants);
   }
   ClosureDifference compared;
   compared.interval = {first, last};
-  compared.by_laser = closure.method == urban_nav_core::ClosureMethod::Icp;
-  compared.difference = axes.transpose() * boxMinus(closure.measured.T_a_b, T_a_b->pose);
+  compared.difference = axes.transpose() * boxMinus(measured.T_a_b, T_a_b->pose);
   compared.odometry = axes.transpose() * (T_a_b->covariance + constants) * axes;
   compared.closure = information.eigenvalues().tail(known).cwiseInverse().asDiagonal();
-  compared.distance_m = distanceBetween(closure.measured.T_a_b, T_a_b->pose);
-  compared.angle_rad = angleBetween(closure.measured.T_a_b, T_a_b->pose);
+  compared.distance_m = distanceBetween(measured.T_a_b, T_a_b->pose);
+  compared.angle_rad = angleBetween(measured.T_a_b, T_a_b->pose);
   return compared;
 }
 
@@ -97,9 +97,28 @@ std::vector<ClosureDifference> closureDifferences(const std::string& session, co
     if (assessments[i].verdict != urban_nav_core::ClosureVerdict::Accepted || closure.a.session != session ||
         closure.b.session != session || closure.method == urban_nav_core::ClosureMethod::None)
       continue;
-    if (std::optional<ClosureDifference> each = compare(closure, odometry, chain))
-      differences.push_back(std::move(*each));
+    std::optional<ClosureDifference> each =
+        compare(closure.a.stamp, closure.b.stamp, closure.measured, odometry, chain);
+    if (!each) continue;
+    each->by_laser = closure.method == urban_nav_core::ClosureMethod::Icp;
+    differences.push_back(std::move(*each));
   }
+  return differences;
+}
+
+std::vector<ClosureDifference> planeDifferences(urban_nav_store::Store& store,
+                                                const urban_nav_store::SessionId& session,
+                                                const SessionOdometry& odometry) {
+  std::vector<ClosureDifference> differences;
+  if (odometry.settled.size() < 2) return differences;
+  const OdometryChain chain = odometryChain(odometry);
+  store.graph().forEachEdge(session, [&](const urban_nav_store::Edge& edge) {
+    if (edge.kind != urban_nav_store::EdgeKind::Plane || edge.a.session != session || edge.b.session != session) return;
+    std::optional<ClosureDifference> each = compare(edge.a.stamp, edge.b.stamp, edge.measured, odometry, chain);
+    if (!each) return;
+    each->by_laser = true;
+    differences.push_back(std::move(*each));
+  });
   return differences;
 }
 

@@ -5,7 +5,9 @@
 
 #include "swf_vo/parameters.hpp"
 #include "topics/trust/closure_differences.hpp"
+#include "topics/trust/compared_fixes.hpp"
 #include "topics/trust/depth_matches.hpp"
+#include "topics/trust/place_visits.hpp"
 #include "topics/trust/session_estimates.hpp"
 #include "topics/trust/tests_not_run.hpp"
 #include "urban_nav_store/table_store.hpp"
@@ -112,8 +114,14 @@ TestResults testSession(MapContext& context, std::size_t number, const urban_nav
     removeLaser(turned, matches);
   testDepths(matches, rig_scale, results.tests, results.absent);
   testClosures(closureDifferences(context.names[number], run, context.closures, context.assessments), results);
+  testPlanes(
+      planeDifferences(*context.store, id, run),
+      context.store->scans().lasers(id).empty() ? "no lasers" : "no plane was measured by two passes of the lasers",
+      results);
   compareGravity(*context.store, id, run, results);
   testLidar(lidarComparison(run), rig_scale, results);
+  compareFixes(context, number, results);
+  compareFreeSpace(context, number, results);
   if (context.trajectories.size() > 1)
     for (ConsistencyTest& test : results.tests) test.sentence = run.input + ": " + test.sentence;
   storeTests(results, parameters, id, *context.store);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <optional>
 
+#include "map/session_fixes.hpp"
 #include "pose_graph/parameters.hpp"
 #include "topics/trust/trust.hpp"
 #include "topics/trust/trust_files.hpp"
@@ -20,6 +21,13 @@ class TrustStage final : public Stage {
   Selection select(const MapOptions& options) const override {
     if (!options.localise.empty()) return {false, "--localise", {}};
     return Stage::select(options);
+  }
+
+  std::unique_ptr<SessionPass> beginSession(MapContext& context, const SessionStart& start) override {
+    const bool are_stored =
+        isRequested(context.options, "lasers") || context.options.parameters.get(pose_graph::table()).gps;
+    if (!are_stored) storeFixes(context, start.session);
+    return nullptr;
   }
 
   Messages run(MapContext& context) override {

@@ -50,6 +50,7 @@ urban_nav_core::FrameMeasurements toMeasurements(const Frame& frame, urban_nav_c
   if (!frame.accepted) return measured;
   measured.disparity_step_px = frame.statistics.disparity_step.px;
   measured.disparity_step_sigma_px = frame.statistics.disparity_step.sigma_px;
+  measured.reprojection_px = frame.statistics.reprojection_px;
   const swf_vo::MotionComparison& compared = frame.motion.newest;
   measured.turn = compared.turn;
   measured.turn_error = compared.turn_error;

@@ -66,6 +66,8 @@ void fromStored(const StoredRun& stored, VoRun& run) {
   for (std::size_t i = 0; i < stored.constants.size(); ++i)
     run.settled[i].from_previous.constants = stored.constants[i];
   for (std::size_t i = 0; i < stored.compared.size(); ++i) run.frames[i].compared = stored.compared[i];
+  for (std::size_t i = 0; i < stored.rows.size(); ++i)
+    run.frames[i].compared.reprojection_px = run.figures[i].statistics.reprojection_px;
   for (std::size_t i = 0; i < stored.right_turns.size(); ++i)
     run.rig.right_turn_rad = run.figures[i].statistics.right_turn_rad = run.frames[i].compared.right_turn =
         stored.right_turns[i];

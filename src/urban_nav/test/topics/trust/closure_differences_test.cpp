@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include "urban_nav_input/testing/folders.hpp"
+
 namespace urban_nav {
 namespace {
 
@@ -104,6 +106,33 @@ TEST(ClosureDifferences, AreOfAcceptedClosuresOfTheSessionAlone) {
   EXPECT_TRUE(closureDifferences("other", drive(), {each}, {verdict(ClosureVerdict::Accepted)}).empty());
   EXPECT_TRUE(closureDifferences("s", drive(), {each}, {}).empty()) << "not relaxed";
   EXPECT_TRUE(closureDifferences("s", {}, {each}, {verdict(ClosureVerdict::Accepted)}).empty());
+}
+
+TEST(PlaneDifferences, AreOfAllPlanesBetweenPassesOfTheSession) {
+  const urban_nav_input::testing::TemporaryFolder folder;
+  urban_nav_store::Store store(folder.file("s.db"), urban_nav_store::Access::Write);
+  constexpr const char *kThis = "aaaaaaaaaaaaaaaa", *kOther = "bbbbbbbbbbbbbbbb";
+  for (const char* id : {kThis, kOther}) store.sessions().put({id, "monday", "", "", 0, true});
+  const auto put = [&](const char* b, urban_nav_store::EdgeKind kind, ClosureVerdict of_graph, int to) {
+    urban_nav_store::Edge edge;
+    edge.a = {kThis, 2 * kOneSecond};
+    edge.b = {b, to * kOneSecond};
+    edge.kind = kind;
+    edge.source = "laser_mapper";
+    edge.verdict = of_graph;
+    edge.measured = {between(to - 2), 1e4 * Matrix6d::Identity()};
+    store.graph().put(edge);
+  };
+  using urban_nav_store::EdgeKind;
+  put(kThis, EdgeKind::Plane, ClosureVerdict::Accepted, 8);
+  put(kThis, EdgeKind::Plane, ClosureVerdict::Rejected, 9);
+  put(kThis, EdgeKind::Icp, ClosureVerdict::Accepted, 7);
+  put(kOther, EdgeKind::Plane, ClosureVerdict::Accepted, 6);
+  const auto found = planeDifferences(store, kThis, drive());
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_NEAR(found[0].difference.norm(), 0.0, 1e-9);
+  EXPECT_EQ(found[1].interval.to, 9 * kOneSecond);
+  EXPECT_TRUE(planeDifferences(store, kThis, {}).empty());
 }
 
 }  // namespace

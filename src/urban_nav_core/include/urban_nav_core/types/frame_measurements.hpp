@@ -15,6 +15,8 @@ struct FrameMeasurements {
   StampNs stamp = 0;
   /// Excess of disparities over those predicted from earlier frames, px.
   double disparity_step_px = 0.0, disparity_step_sigma_px = 0.0;
+  /// Root mean square reprojection error in the left image after the update, px; 0: not measured. Not archived.
+  double reprojection_px = 0.0;
   /// Rotation vector of the right stereo camera relative to its calibrated orientation, in its optical frame, rad, by
   /// which odometry corrects the images of this frame. Not archived.
   Eigen::Vector3d right_turn = Eigen::Vector3d::Zero();
