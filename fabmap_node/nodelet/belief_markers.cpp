@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "belief_markers.hpp"
 
-#include <array>
-#include <cstdio>
 #include <vector>
 
+#include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_ros/marker_builder.hpp"
 
 namespace fabmap_node {
@@ -23,9 +22,8 @@ std_msgs::ColorRGBA knowledgeColour(PlaceKnowledge knowledge, double alpha = 1.0
 }
 
 std::string printBelief(const BeliefTrail::Point& point) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%s, known place: %.3f", toString(point.knowledge), 1.0 - point.p_new);
-  std::string printed = text.data();
+  const std::string known = urban_nav_core::formatNumber(1.0 - point.p_new, 3);
+  std::string printed = std::string(toString(point.knowledge)) + ", known place: " + known;
   if (point.likeliest && !point.likeliest->at.session.empty()) printed += "\nof session " + point.likeliest->at.session;
   return printed;
 }

@@ -2,8 +2,6 @@
 #include <nav_msgs/Odometry.h>
 #include <urban_nav_msgs/FileCommand.h>
 #include <urban_nav_msgs/PlaceBelief.h>
-#include <urban_nav_msgs/TopologicalClosure.h>
-#include <visualization_msgs/MarkerArray.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <optional>
@@ -25,6 +23,7 @@
 
 namespace fabmap_node {
 
+using urban_nav_core::MetricClosure;
 using urban_nav_ros::HeadImages;
 using urban_nav_ros::PanoramaFeed;
 using urban_nav_ros::RecordedImage;
@@ -32,8 +31,6 @@ using urban_nav_ros::RecordedImage;
 namespace {
 
 constexpr double kOdometryTimeout = 5.0;  // s
-// Capacity for pending writes of about 25 kB, in addition to those that LivePlaces holds while the disk is unavailable.
-constexpr std::size_t kWaitingPlaces = 1000;
 // Time by stamps that images of the left camera wait for a panoramic head, which begins within a period of its own
 // (Ladybug2 of the paper: 3 Hz) and of the start of its driver.
 constexpr urban_nav_core::StampNs kHeadPatience = 3'000'000'000;
@@ -49,12 +46,6 @@ struct OdometryPose {
   std::string odom_frame;
 };
 
-urban_nav_live::StoreWriterLink::Options storeOptions() {
-  urban_nav_live::StoreWriterLink::Options options;
-  options.writer.capacity = kWaitingPlaces;
-  return options;
-}
-
 urban_nav_msgs::PlaceBelief toMessage(const PlaceBelief& belief) {
   urban_nav_msgs::PlaceBelief message;
   message.header.stamp = urban_nav_ros::toRosTime(belief.at.stamp);
@@ -65,6 +56,7 @@ urban_nav_msgs::PlaceBelief toMessage(const PlaceBelief& belief) {
   for (const LikelyPlace& place : belief.likeliest) {
     message.places.push_back(urban_nav_ros::toPoseRefMessage(place.at));
     message.probabilities.push_back(place.probability);
+    message.verdicts.push_back(static_cast<std::uint8_t>(place.verdict ? 1 + static_cast<int>(*place.verdict) : 0));
   }
   return message;
 }
@@ -76,7 +68,7 @@ class FabmapStage {
  public:
   static constexpr const char* name = "fabmap_node";
   static constexpr const char* topic = "place recognition";
-  using Input = std::variant<CameraImage, OdometryPose, urban_nav_core::OdometrySessionPtr>;
+  using Input = std::variant<CameraImage, OdometryPose, urban_nav_core::OdometrySessionPtr, MetricClosure>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
   explicit FabmapStage(Node& node);
@@ -101,6 +93,7 @@ class FabmapStage {
   void loadMap();
   void process(urban_nav_core::StampNs stamp, const std::vector<RecordedImage>& images);
   void addOdometry(const OdometryPose& pose);
+  void publish(const std::vector<PlaceBelief>& changed);
   void publishMarkers();
 
   Node& node_;
@@ -119,7 +112,7 @@ FabmapStage::FabmapStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
   node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
   places_ = std::make_unique<LivePlaces>(parameters_, LiveSessionName{nodelet_.robot, nodelet_.recording, true},
-                                         nodelet_.store, storeOptions());
+                                         nodelet_.store, LivePlaceStore::defaultOptions());
   loadMap();
   takeImages();
   belief_ = node.nh().advertise<urban_nav_msgs::PlaceBelief>(urban_nav_ros::topics::kPlaceBelief, 100);
@@ -160,6 +153,9 @@ void FabmapStage::subscribeOdometry() {
                                                      [](const urban_nav_msgs::RelativePoseConstPtr& message) {
                                                        return urban_nav_ros::toOdometrySession(message->session);
                                                      });
+  for (const char* verdicts : {urban_nav_ros::topics::kMetricClosure, urban_nav_ros::topics::kGraphVerdicts})
+    node_.subscribeInput<urban_nav_msgs::MetricClosure>(
+        verdicts, options, [](const auto& message) { return urban_nav_ros::toMetricClosure(*message); });
 }
 
 void FabmapStage::advertiseFiles() {
@@ -195,6 +191,7 @@ void FabmapStage::takeImages() {
 void FabmapStage::handle(Input& input) {
   if (const auto* pose = std::get_if<OdometryPose>(&input)) return addOdometry(*pose);
   if (const auto* session = std::get_if<urban_nav_core::OdometrySessionPtr>(&input)) return places_->follow(*session);
+  if (const auto* closure = std::get_if<MetricClosure>(&input)) return publish(places_->addVerdict(*closure));
   const CameraImage& image = std::get<CameraImage>(input);
   images_->add(image.camera, image.image.stamp(), image.image);
 }
@@ -221,7 +218,14 @@ void FabmapStage::process(urban_nav_core::StampNs stamp, const std::vector<Recor
   for (const auto& closure : output.closures) closure_.publish(urban_nav_ros::toTopologicalClosureMessage(closure));
 }
 
-/// Draws the trail if it has grown.
+void FabmapStage::publish(const std::vector<PlaceBelief>& changed) {
+  for (const PlaceBelief& belief : changed) {
+    trail_.revise(belief);
+    belief_.publish(toMessage(belief));
+  }
+}
+
+/// Draws the trail if it has changed.
 void FabmapStage::publishMarkers() {
   if (markers_.getNumSubscribers() == 0 || trail_.count() == drawn_ || trail_.points().empty()) return;
   markers_.publish(toMarkers(trail_, odom_frame_));

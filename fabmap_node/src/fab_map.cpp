@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fabmap_node/fab_map.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -26,14 +26,8 @@ RecogniserOptions recogniserOptions(const Parameters& parameters) {
 
 }  // namespace
 
-const char* toString(PlaceKnowledge knowledge) {
-  constexpr std::array<const char*, 3> kNames = {"KNOWN", "UNSURE", "NEW"};
-  return kNames[static_cast<std::size_t>(knowledge)];
-}
-
 FabMap::FabMap(const PlaceModel& model, const Parameters& parameters, LookReader read_look)
-    : known_probability_(parameters.known_probability),
-      closure_probability_(parameters.closure_probability),
+    : parameters_(parameters),
       recogniser_(model, recogniserOptions(parameters), std::move(read_look)),
       selector_(parameters) {}
 
@@ -48,18 +42,36 @@ void FabMap::addPlace(StampNs stamp, const PlaceDescription& description, double
   if (recogniser_.add(stamp, description)) travelled_.push_back(travelled);
 }
 
-PlaceBelief FabMap::decide(const PlaceRecognition& recognition) const {
+PlaceBelief FabMap::toBelief(const PlaceRecognition& recognition) const {
   PlaceBelief belief;
   belief.observation = recognition.status;
   belief.words = recognition.words;
-  if (!recognition.match) return belief;
-  const DescribedPlace& place = recogniser_.place(recognition.match->place);
-  belief.likeliest.push_back({{sessions_[place.session], place.stamp}, recognition.probability});
-  belief.p_new = 1.0 - recognition.probability;
-  belief.agreeing = recognition.match->agreeing;
-  if (recognition.probability > known_probability_) belief.knowledge = PlaceKnowledge::Known;
-  else if (recognition.probability > closure_probability_) belief.knowledge = PlaceKnowledge::Unsure;
+  const auto add = [&](const PlaceMatch& match, double probability) {
+    const DescribedPlace& place = recogniser_.place(match.place);
+    belief.likeliest.push_back({{sessions_[place.session], place.stamp}, probability, travelled_[match.place], {}});
+  };
+  if (recognition.match) {
+    belief.agreeing = recognition.match->agreeing;
+    add(*recognition.match, recognition.probability);
+  }
+  if (recognition.earlier) add(*recognition.earlier, recognition.earlier_probability);
+  decide(parameters_, belief);
   return belief;
+}
+
+std::optional<double> FabMap::travelled(const urban_nav_core::PoseRef& at) const {
+  std::optional<std::size_t> before, after;  // nearest places
+  for (std::size_t i = 0; i < recogniser_.places(); ++i) {
+    const DescribedPlace& place = recogniser_.place(i);
+    if (sessions_[place.session] != at.session) continue;
+    if (place.stamp <= at.stamp) before = i;
+    if (place.stamp >= at.stamp && !after) after = i;
+  }
+  if (!before || !after) return std::nullopt;
+  const StampNs from = recogniser_.place(*before).stamp, to = recogniser_.place(*after).stamp;
+  if (from == to) return travelled_[*before];
+  const double share = static_cast<double>(at.stamp - from) / static_cast<double>(to - from);
+  return travelled_[*before] + share * (travelled_[*after] - travelled_[*before]);
 }
 
 PlaceOutput FabMap::process(StampNs stamp, const PlaceDescription& description, double travelled) {
@@ -75,8 +87,9 @@ PlaceOutput FabMap::process(StampNs stamp, const PlaceDescription& description, 
     last_look_ = std::move(look);
   }
   const PlaceRecognition recognition = recogniser_.process(stamp, description);
-  output.belief = decide(recognition);
+  output.belief = toBelief(recognition);
   output.belief.at = {sessions_.back(), stamp};
+  output.belief.travelled = travelled;
   if (description.status == ObservationStatus::Used) travelled_.push_back(travelled);
   const auto propose = [&](const PlaceMatch& match, double probability) {
     const DescribedPlace& place = recogniser_.place(match.place);

@@ -106,7 +106,22 @@ TEST(FabMap, APlacePassedAgainOnOneDayIsProposedForAnotherDay) {
   EXPECT_EQ(output.closures[0].a.stamp, 1002 * kPlaceSecond);
   EXPECT_EQ(output.closures[1].a.session, "monday");
   EXPECT_EQ(output.closures[1].a.stamp, 12 * kPlaceSecond);
-  EXPECT_EQ(output.belief.likeliest.size(), 1u);
+  ASSERT_EQ(output.belief.likeliest.size(), 2u) << "the likeliest place of each session";
+  EXPECT_GE(output.belief.likeliest[0].probability, output.belief.likeliest[1].probability);
+  EXPECT_DOUBLE_EQ(output.belief.p_new, 1.0 - output.belief.likeliest[0].probability);
+}
+
+TEST(FabMap, DistancesAreInterpolatedBetweenThePlacesOfASession) {
+  FabMap map(syntheticModel(), Parameters());
+  map.beginSession("monday");
+  for (std::uint32_t i = 0; i < 3; ++i) map.process(i * kPlaceSecond, describeNumber(5000 + i, 0), 6.0 * i);
+  map.beginSession("tuesday");
+  map.process(0, describeNumber(6000, 0), 100.0);
+  EXPECT_EQ(map.travelled({"monday", kPlaceSecond}), 6.0);
+  EXPECT_EQ(map.travelled({"monday", kPlaceSecond + kPlaceSecond / 2}), 9.0);
+  EXPECT_EQ(map.travelled({"tuesday", 0}), 100.0);
+  EXPECT_EQ(map.travelled({"monday", 3 * kPlaceSecond}), std::nullopt);
+  EXPECT_EQ(map.travelled({"sunday", 0}), std::nullopt);
 }
 
 TEST(FabMap, StationaryRobotCountsOnce) {

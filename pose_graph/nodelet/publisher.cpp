@@ -3,10 +3,9 @@
 
 #include <nav_msgs/Path.h>
 #include <urban_nav_msgs/GraphState.h>
-#include <urban_nav_msgs/GraphUpdate.h>
-#include <urban_nav_msgs/PoseCorrection.h>
 
 #include "markers.hpp"
+#include "urban_nav_ros/closure.hpp"
 #include "urban_nav_ros/graph.hpp"
 #include "urban_nav_ros/path.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -17,14 +16,13 @@ namespace pose_graph {
 namespace topics = urban_nav_ros::topics;
 using urban_nav_core::StampNs;
 using urban_nav_core::TrajectorySegment;
-using urban_nav_ros::toRosTime;
 
 namespace {
 
 urban_nav_msgs::GraphState toStateMessage(const Figures& figures, double relax_ms, StampNs newest,
                                           const std::string& map_frame) {
   urban_nav_msgs::GraphState message;
-  message.header.stamp = toRosTime(newest);
+  message.header.stamp = urban_nav_ros::toRosTime(newest);
   message.header.frame_id = map_frame;
   message.revision = static_cast<std::uint64_t>(figures.revision);
   message.sessions = static_cast<std::uint32_t>(figures.sessions);
@@ -48,6 +46,7 @@ Publisher::Publisher(ros::NodeHandle& nh, const NodeletParameters& parameters)
       correction_(nh.advertise<urban_nav_msgs::PoseCorrection>(topics::kGraphCorrection, 100)),
       path_(nh.advertise<nav_msgs::Path>(topics::kGraphPath, 1, true)),
       state_(nh.advertise<urban_nav_msgs::GraphState>(topics::kGraphState, 1, true)),
+      verdicts_(nh.advertise<urban_nav_msgs::MetricClosure>(topics::kGraphVerdicts, 1000)),
       markers_(nh.advertise<visualization_msgs::MarkerArray>(topics::kGraphMarkers, 1, true)),
       map_from_odom_(parameters.map_frame, parameters.odom_frame) {}
 
@@ -60,6 +59,8 @@ void Publisher::publish(const LiveGraph::Outcome& outcome, StampNs newest, doubl
   if (outcome.update) update_.publish(urban_nav_ros::toGraphUpdateMessage(*outcome.update, newest, frame));
   for (const urban_nav_core::PoseCorrection& correction : outcome.corrections)
     correction_.publish(urban_nav_ros::toPoseCorrectionMessage(correction, frame));
+  for (const urban_nav_core::MetricClosure& closure : outcome.verdicts)
+    verdicts_.publish(urban_nav_ros::toMetricClosureMessage(closure, parameters_.base_frame, 1.0));
   state_.publish(toStateMessage(outcome.figures, relax_ms, newest, frame));
 }
 

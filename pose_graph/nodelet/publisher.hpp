@@ -29,7 +29,7 @@ class Publisher {
 
  private:
   const NodeletParameters parameters_;
-  ros::Publisher update_, correction_, path_, state_, markers_;
+  ros::Publisher update_, correction_, path_, state_, verdicts_, markers_;
   urban_nav_ros::MapFromOdom map_from_odom_;
 };
 

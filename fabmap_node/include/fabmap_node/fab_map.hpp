@@ -6,34 +6,12 @@
 #include <vector>
 
 #include "fabmap_node/decision/closure_selector.hpp"
+#include "fabmap_node/decision/place_belief.hpp"
 #include "fabmap_node/parameters.hpp"
 #include "fabmap_node/recognition/place_recogniser.hpp"
 #include "urban_nav_core/types/closure.hpp"
 
 namespace fabmap_node {
-
-/// Whether an observation shows a place of the map.
-enum class PlaceKnowledge { Known, Unsure, New };
-/// Returns "KNOWN", "UNSURE" or "NEW".
-const char* toString(PlaceKnowledge knowledge);
-
-/// Place of the map with its probability for an observation.
-struct LikelyPlace {
-  urban_nav_core::PoseRef at;
-  double probability = 0.0;
-};
-
-/// Place belief after an observation.
-struct PlaceBelief {
-  urban_nav_core::PoseRef at;
-  ObservationStatus observation = ObservationStatus::Used;  ///< nothing below is set unless Used
-  PlaceKnowledge knowledge = PlaceKnowledge::New;
-  double p_new = 1.0;                  ///< probability of a place that is not in the map
-  std::vector<LikelyPlace> likeliest;  ///< in descending order of probability
-  std::size_t words = 0;               ///< distinct words of the observation
-  int agreeing = 0;                    ///< descriptors consistent with the likeliest place
-  bool is_stationary = false;          ///< the robot has not moved: the belief is that of the previous observation
-};
 
 /// Belief after an observation, and the closures to be measured.
 struct PlaceOutput {
@@ -67,13 +45,16 @@ class FabMap {
   const DescribedPlace& place(std::size_t i) const { return recogniser_.place(i); }
   /// Returns the distance travelled in its session up to a place, m.
   double travelled(std::size_t i) const { return travelled_[i]; }
+  /// Returns the distance travelled in its session up to a pose, m, interpolated between places; nullopt unless the
+  /// pose is between places of one of the sessions, or at one.
+  std::optional<double> travelled(const urban_nav_core::PoseRef& at) const;
   /// Returns the names of the sessions.
   const std::vector<std::string>& sessions() const { return sessions_; }
 
  private:
-  PlaceBelief decide(const PlaceRecognition& recognition) const;
+  PlaceBelief toBelief(const PlaceRecognition& recognition) const;
 
-  const double known_probability_, closure_probability_;
+  const Parameters parameters_;
   PlaceRecogniser recogniser_;
   ClosureSelector selector_;
   std::vector<std::string> sessions_;

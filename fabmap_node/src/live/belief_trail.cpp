@@ -33,11 +33,28 @@ void BeliefTrail::add(const PlaceBelief& belief) {
   if (belief.observation != ObservationStatus::Used || belief.is_stationary) return;
   const StampNs last = !waiting_.empty() ? waiting_.back().stamp : !points_.empty() ? points_.back().stamp : 0;
   if (belief.at.stamp <= last) clear();
-  Point point{belief.at.stamp, Eigen::Vector3d::Zero(), belief.knowledge, belief.p_new, std::nullopt};
-  if (!belief.likeliest.empty()) point.likeliest = belief.likeliest.front();
+  Point point;
+  point.stamp = belief.at.stamp;
+  set(belief, point);
   waiting_.push_back(std::move(point));
   dropOldest(waiting_, kMostWaiting);
   placeWaiting();
+}
+
+void BeliefTrail::set(const PlaceBelief& belief, Point& point) {
+  point.knowledge = belief.knowledge;
+  point.p_new = belief.p_new;
+  if (!belief.likeliest.empty()) point.likeliest = belief.likeliest.front();
+}
+
+void BeliefTrail::revise(const PlaceBelief& belief) {
+  for (std::deque<Point>* some : {&points_, &waiting_}) {
+    const auto found = std::lower_bound(some->begin(), some->end(), belief.at.stamp,
+                                        [](const Point& each, StampNs wanted) { return each.stamp < wanted; });
+    if (found == some->end() || found->stamp != belief.at.stamp) continue;
+    set(belief, *found);
+    ++count_;
+  }
 }
 
 void BeliefTrail::clear() {

@@ -27,13 +27,15 @@ class BeliefTrail {
   /// Adds a belief once odometry has reached its stamp, except for unused observations and stationary robots. A
   /// backward jump of stamps clears the trail.
   void add(const PlaceBelief& belief);
+  /// Replaces the belief with the stamp of this one, if there is one.
+  void revise(const PlaceBelief& belief);
   void clear();
 
   /// Returns the beliefs in order of time.
   const std::deque<Point>& points() const { return points_; }
   /// Returns the point of the observation with this stamp; nullptr if there is none.
   const Point* find(urban_nav_core::StampNs stamp) const;
-  /// Returns the total number of points ever added, which serves as a revision.
+  /// Returns the total number of points ever added or revised, which serves as a revision.
   std::size_t count() const { return count_; }
 
  private:
@@ -42,6 +44,7 @@ class BeliefTrail {
     Eigen::Vector3d p_odom;
   };
   void placeWaiting();
+  static void set(const PlaceBelief& belief, Point& point);
 
   std::deque<Position> path_;  // last minute
   std::deque<Point> waiting_;  // until odometry reaches their stamps

@@ -18,6 +18,16 @@ using urban_nav_store::StoredModel;
 using urban_nav_store::StoredPlace;
 using urban_nav_store::TableStore;
 
+namespace {
+constexpr std::size_t kWaitingPlaces = 1000;  // pending writes of about 25 kB
+}
+
+urban_nav_live::StoreWriterLink::Options LivePlaceStore::defaultOptions() {
+  urban_nav_live::StoreWriterLink::Options options;
+  options.writer.capacity = kWaitingPlaces;
+  return options;
+}
+
 LivePlaceStore::LivePlaceStore(std::string path, const std::string& model_bytes,
                                urban_nav_live::StoreWriterLink::Options options)
     : is_wanted_(!path.empty()),

@@ -17,6 +17,9 @@ namespace fabmap_node {
 /// thread.
 class LivePlaceStore {
  public:
+  /// Returns options with room for pending writes in addition to those that are held while the disk is unavailable.
+  static urban_nav_live::StoreWriterLink::Options defaultOptions();
+
   /// `path`: absolute; empty: nothing is stored. `model_bytes`: model of the places' words.
   LivePlaceStore(std::string path, const std::string& model_bytes, urban_nav_live::StoreWriterLink::Options options);
   /// Commits pending data if possible.

@@ -6,6 +6,7 @@
 
 #include "fabmap_node/store/place_rows.hpp"
 #include "urban_nav_core/io/text_file.hpp"
+#include "urban_nav_core/types/error.hpp"
 
 namespace fabmap_node {
 
@@ -38,7 +39,8 @@ LivePlaces::LivePlaces(const Parameters& parameters, LiveSessionName name, const
       model_(parseModel(model_bytes_, parameters.model)),
       describer_(model_, featureOptions(parameters), MatcherOptions().look_features),
       store_(store, model_bytes_, std::move(store_options)),
-      namer_(name_.robot) {
+      namer_(name_.robot),
+      history_(parameters) {
   reset();
 }
 
@@ -87,6 +89,7 @@ PlaceOutput LivePlaces::process(urban_nav_core::StampNs stamp, const std::vector
   const std::size_t places = map_->places();
   unreadable_.clear();
   PlaceOutput output = map_->process(stamp, description, odometry_.travelled(stamp));
+  output.belief = history_.add(std::move(output.belief));
   if (map_->places() > places) {
     recorded_->add({stamp, description, odometry_.travelled(stamp)});
     if (store_.isWanted()) {
@@ -106,6 +109,21 @@ PlaceOutput LivePlaces::process(urban_nav_core::StampNs stamp, const std::vector
       for (urban_nav_core::PoseRef* at : {&closure.a, &closure.b})
         if (at->session.empty()) at->session = session_->id;
   return output;
+}
+
+std::vector<PlaceBelief> LivePlaces::addVerdict(const urban_nav_core::MetricClosure& closure) {
+  const auto verdict = placeVerdict(closure);
+  urban_nav_core::PoseRef a = closure.a, b = closure.b;
+  for (urban_nav_core::PoseRef* at : {&a, &b})
+    if (at->session == sessionId(announced_) || (session_ && at->session == session_->id)) at->session.clear();
+  if (!verdict || !b.session.empty() || !first_observed_) return {};
+  const std::optional<double> travelled_a =
+      a.session.empty() ? std::optional<double>(odometry_.travelled(a.stamp)) : map_->travelled(a);
+  if (!travelled_a) return {};
+  ++counts_.verdicts;
+  std::vector<PlaceBelief> changed = history_.addVerdict({a, b, *travelled_a, odometry_.travelled(b.stamp), *verdict});
+  if (!changed.empty() && changed.back().at.stamp == last_.at.stamp) last_ = changed.back();
+  return changed;
 }
 
 void LivePlaces::keep(urban_nav_store::StoredPlace place) {
@@ -145,6 +163,7 @@ void LivePlaces::endSession() {
   }
   session_.reset();
   first_observed_.reset();
+  history_.clear();
 }
 
 void LivePlaces::syncStore() {
@@ -209,6 +228,7 @@ urban_nav_live::StageReport LivePlaces::report() const {
   report.add("places", map_->places());
   report.add("known", counts_.known);
   report.add("closures proposed", counts_.closures);
+  report.add("verdicts on closures", counts_.verdicts);
   addStoreFigures(store_.state(), report);
   return report;
 }

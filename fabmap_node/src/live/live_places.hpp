@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fabmap_node/decision/belief_history.hpp"
 #include "fabmap_node/fab_map.hpp"
 #include "live/live_place_store.hpp"
 #include "live/place_archive.hpp"
@@ -48,6 +49,9 @@ class LivePlaces {
   void follow(const urban_nav_core::OdometrySessionPtr& announced);
   /// Recognises an observation. `images`: by camera; an empty view is missing.
   PlaceOutput process(urban_nav_core::StampNs stamp, const std::vector<urban_nav_core::ImageView>& images);
+  /// Adds a closure with the verdict of loop_metric or pose_graph. Returns the beliefs that it changes, as
+  /// BeliefHistory::addVerdict(); empty unless `b` is of the session of the observations and `a` of one in the map.
+  std::vector<PlaceBelief> addVerdict(const urban_nav_core::MetricClosure& closure);
   /// Opens the store when an attempt is due, and passes places to it. Call about ten times a second.
   void syncStore();
   /// Passes all places to the store, if any, and blocks until they are committed or storeState() has a fault.
@@ -68,7 +72,7 @@ class LivePlaces {
 
  private:
   struct Counts {
-    std::int64_t observations = 0, unused = 0, incomplete = 0, known = 0, closures = 0;
+    std::int64_t observations = 0, unused = 0, incomplete = 0, known = 0, closures = 0, verdicts = 0;
   };
   struct Added {
     std::vector<urban_nav_store::Session> sessions;  ///< in the map, including earlier ones
@@ -118,6 +122,7 @@ class LivePlaces {
   // As announced by odometry, and the next one, which odometry has begun before the observations; null: none.
   urban_nav_core::OdometrySessionPtr announced_, next_announced_;
   std::shared_ptr<RecordedPlaces> recorded_;
+  BeliefHistory history_;
   SessionOdometry odometry_;
   urban_nav_live::TimeJumpDetector time_;                  // of observations
   std::optional<urban_nav_core::StampNs> first_observed_;  // nullopt: no observation yet

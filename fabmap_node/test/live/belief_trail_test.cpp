@@ -21,7 +21,7 @@ PlaceBelief beliefAt(StampNs stamp) {
   belief.at = {"", stamp};
   belief.knowledge = PlaceKnowledge::Known;
   belief.p_new = 0.005;
-  belief.likeliest = {{{"", stamp - 60 * kTrailPeriod}, 0.995}};
+  belief.likeliest = {{{"", stamp - 60 * kTrailPeriod}, 0.995, 0.0, {}}};
   return belief;
 }
 
@@ -36,6 +36,26 @@ TEST(BeliefTrail, BeliefsAreAtTheirPosesOfOdometry) {
   EXPECT_EQ(trail.points()[1].likeliest->at.stamp, 45 * kTrailPeriod + kTrailPeriod / 2);
   EXPECT_EQ(trail.find(103 * kTrailPeriod), &trail.points()[0]);
   EXPECT_EQ(trail.find(104 * kTrailPeriod), nullptr);
+}
+
+TEST(BeliefTrail, ARevisedBeliefStaysWhereItIs) {
+  BeliefTrail trail;
+  drive(trail, 100 * kTrailPeriod, 11);
+  trail.add(beliefAt(103 * kTrailPeriod));
+  trail.add(beliefAt(105 * kTrailPeriod));
+  const std::size_t count = trail.count();
+  PlaceBelief revised = beliefAt(103 * kTrailPeriod);
+  revised.knowledge = PlaceKnowledge::Unsure;
+  revised.p_new = 0.4;
+  trail.revise(revised);
+  ASSERT_EQ(trail.points().size(), 2U);
+  EXPECT_EQ(trail.points()[0].knowledge, PlaceKnowledge::Unsure);
+  EXPECT_EQ(trail.points()[0].p_new, 0.4);
+  EXPECT_EQ(trail.points()[0].p_odom.x(), 6.0);
+  EXPECT_EQ(trail.points()[1].knowledge, PlaceKnowledge::Known);
+  EXPECT_GT(trail.count(), count);
+  trail.revise(beliefAt(104 * kTrailPeriod));
+  EXPECT_EQ(trail.points().size(), 2U);
 }
 
 TEST(BeliefTrail, WaitsForOdometryAndLeavesOutWhatWasBeforeIt) {

@@ -120,6 +120,46 @@ TEST_F(LivePlacesTest, ARecordingThatIsPlayedAgainGivesTheSameContent) {
   EXPECT_EQ(readContent(path_), readContent(whole));
 }
 
+TEST_F(LivePlacesTest, VerdictsChangeTheBeliefOfTheSessionOnly) {
+  drive(*begin(path_), kMonday, 0, 8);
+  const std::string monday = sessions(path_).at(0).id;
+  const auto places = begin(path_);
+  drive(*places, kTuesday, 20, 25);
+  const StampNs seen = kTuesday + 5 * kObservationPeriod;
+  places->addOdometry({seen, {urban_nav_core::Quaterniond::Identity(), {10.0, 0.0, 0.0}}});
+  const PlaceOutput output = observe(*places, seen, 3);
+  ASSERT_FALSE(output.belief.likeliest.empty());
+  const urban_nav_core::PoseRef a = output.belief.likeliest[0].at;
+  ASSERT_EQ(a.session, monday);
+  const double before = output.belief.likeliest[0].probability;
+  urban_nav_core::MetricClosure closure;
+  closure.a = a;
+  closure.b = {"", seen + 20'000'000};  // verdicts name the nearest frame of odometry
+  closure.source = "loop_metric";
+  /// Returns the probability of the place at `seen` after the verdict; -1 if that belief does not change.
+  const auto probabilityAfter = [&](urban_nav_core::ClosureVerdict verdict) {
+    closure.verdict = verdict;
+    for (const PlaceBelief& belief : places->addVerdict(closure))
+      if (belief.at.stamp == seen) return belief.likeliest.at(0).probability;
+    return -1.0;
+  };
+  const double rejected = probabilityAfter(urban_nav_core::ClosureVerdict::Rejected);
+  EXPECT_GE(rejected, 0.0);
+  EXPECT_LT(rejected, before);
+  const double accepted = probabilityAfter(urban_nav_core::ClosureVerdict::Accepted);
+  EXPECT_GT(accepted, before);
+  closure.source = "pose_graph";
+  EXPECT_LT(probabilityAfter(urban_nav_core::ClosureVerdict::Rejected), before);
+  closure.a.session = "unknown";
+  EXPECT_EQ(probabilityAfter(urban_nav_core::ClosureVerdict::Accepted), -1.0);
+  closure.a = a;
+  closure.b = {monday, a.stamp};
+  EXPECT_EQ(probabilityAfter(urban_nav_core::ClosureVerdict::Accepted), -1.0) << "of an earlier session";
+  closure.b = {"", seen};
+  places->reset();
+  EXPECT_EQ(probabilityAfter(urban_nav_core::ClosureVerdict::Accepted), -1.0);
+}
+
 TEST_F(LivePlacesTest, WhatComesWhileTheStoreIsInUseIsNotLost) {
   auto other = std::make_unique<Store>(path_, Access::Write);
   const auto places = begin(path_);

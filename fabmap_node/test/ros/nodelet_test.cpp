@@ -7,6 +7,7 @@
 #include <sensor_msgs/Image.h>
 #include <std_srvs/Trigger.h>
 #include <urban_nav_msgs/FileCommand.h>
+#include <urban_nav_msgs/MetricClosure.h>
 #include <urban_nav_msgs/PlaceBelief.h>
 #include <urban_nav_msgs/TopologicalClosure.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -77,6 +78,8 @@ class Head {
       images_.push_back(
           nh_.advertise<sensor_msgs::Image>("ladybug/camera" + std::to_string(camera) + "/image_raw", 100));
     odometry_ = nh_.advertise<nav_msgs::Odometry>("odometry", 100);
+    metric_ = nh_.advertise<urban_nav_msgs::MetricClosure>("loops/metric", 100);
+    graph_ = nh_.advertise<urban_nav_msgs::MetricClosure>("graph/verdicts", 100);
     belief_ = nh_.subscribe<urban_nav_msgs::PlaceBelief>(
         "places/belief", 100, [this](const urban_nav_msgs::PlaceBeliefConstPtr& m) { beliefs.push_back(*m); });
     closure_ = nh_.subscribe<urban_nav_msgs::TopologicalClosure>(
@@ -89,7 +92,8 @@ class Head {
     return until([this] {
       for (const ros::Publisher& image : images_)
         if (image.getNumSubscribers() == 0) return false;
-      if (odometry_.getNumSubscribers() == 0) return false;
+      for (const ros::Publisher* other : {&odometry_, &metric_, &graph_})
+        if (other->getNumSubscribers() == 0) return false;
       return belief_.getNumPublishers() > 0 && closure_.getNumPublishers() > 0 && marker_.getNumPublishers() > 0;
     });
   }
@@ -121,6 +125,18 @@ class Head {
     message.pose.pose.orientation.w = 1.0;
     odometry_.publish(message);
   }
+  /// Publishes the verdict of loop_metric or pose_graph on a closure.
+  void verify(const urban_nav_msgs::TopologicalClosure& closure, std::uint8_t verdict, const std::string& source) {
+    urban_nav_msgs::MetricClosure message;
+    message.header = closure.header;
+    message.a = closure.a;
+    message.b = closure.b;
+    message.T_a_b.orientation.w = 1.0;
+    message.verdict = verdict;
+    message.method = urban_nav_msgs::MetricClosure::STEREO;
+    message.source = source;
+    (source == "pose_graph" ? graph_ : metric_).publish(message);
+  }
   /// Resets the nodelet, and drops the messages received from it.
   bool reset() {
     std_srvs::Trigger call;
@@ -145,7 +161,7 @@ class Head {
  private:
   ros::NodeHandle nh_;
   std::vector<ros::Publisher> images_;
-  ros::Publisher odometry_;
+  ros::Publisher odometry_, metric_, graph_;
   ros::Subscriber belief_, closure_, marker_;
 };
 
@@ -179,6 +195,38 @@ TEST_F(FabmapNodelet, RecognisesARevisitAndProposesIt) {
   EXPECT_EQ(urban_nav_ros::toStampNs(head.closures[0].a.stamp), kFirstStamp + 3 * kHalfSecond);
   EXPECT_EQ(urban_nav_ros::toStampNs(head.closures[0].b.stamp), kFirstStamp + 60 * kHalfSecond);
   EXPECT_NEAR(belief.p_new + belief.probabilities[0], 1.0, 1e-9);
+}
+
+TEST_F(FabmapNodelet, VerdictsOnAClosureComeBackWithinASecond) {
+  for (unsigned place = 0; place < 5; ++place) ASSERT_TRUE(head.observe(place, kFirstStamp + place * kHalfSecond));
+  ASSERT_TRUE(head.observe(3, kFirstStamp + 60 * kHalfSecond));
+  ASSERT_TRUE(Head::until([&] { return !head.closures.empty(); }));
+  const urban_nav_msgs::TopologicalClosure closure = head.closures[0];
+  const double appearance = head.beliefs.back().probabilities.at(0);
+  EXPECT_EQ(head.beliefs.back().verdicts.at(0), urban_nav_msgs::PlaceBelief::NONE);
+  const auto revised = [&](const std::function<void()>& publish) {
+    head.beliefs.clear();
+    const ros::WallTime before = ros::WallTime::now();
+    publish();
+    EXPECT_TRUE(Head::until([&] { return !head.beliefs.empty(); }));
+    EXPECT_LT((ros::WallTime::now() - before).toSec(), 1.0);
+    return head.beliefs.empty() ? urban_nav_msgs::PlaceBelief() : head.beliefs.back();
+  };
+  const auto rejected = revised([&] { head.verify(closure, urban_nav_msgs::MetricClosure::REJECTED, "loop_metric"); });
+  ASSERT_EQ(rejected.places.size(), 1U);
+  EXPECT_LT(rejected.probabilities.at(0), appearance);
+  EXPECT_EQ(rejected.verdicts.at(0), urban_nav_msgs::PlaceBelief::REJECTED);
+  const auto accepted = revised([&] { head.verify(closure, urban_nav_msgs::MetricClosure::ACCEPTED, "loop_metric"); });
+  ASSERT_EQ(accepted.places.size(), 1U);
+  EXPECT_EQ(accepted.header.stamp, closure.b.stamp);
+  EXPECT_EQ(accepted.places[0].stamp, closure.a.stamp);
+  EXPECT_EQ(accepted.knowledge, urban_nav_msgs::PlaceBelief::KNOWN);
+  EXPECT_EQ(accepted.verdicts.at(0), urban_nav_msgs::PlaceBelief::ACCEPTED);
+  const auto withdrawn = revised([&] { head.verify(closure, urban_nav_msgs::MetricClosure::REJECTED, "pose_graph"); });
+  ASSERT_EQ(withdrawn.places.size(), 1U);
+  EXPECT_LT(withdrawn.probabilities.at(0), appearance);
+  EXPECT_NE(withdrawn.knowledge, urban_nav_msgs::PlaceBelief::KNOWN);
+  EXPECT_EQ(withdrawn.verdicts.at(0), urban_nav_msgs::PlaceBelief::WITHDRAWN);
 }
 
 TEST_F(FabmapNodelet, ClearsOnResetAndContinuesWithFourCameras) {

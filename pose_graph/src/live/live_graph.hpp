@@ -44,6 +44,7 @@ class LiveGraph {
   struct Outcome {
     std::optional<urban_nav_core::GraphUpdate> update;  ///< empty: no pose moved
     std::vector<urban_nav_core::PoseCorrection> corrections;
+    std::vector<urban_nav_core::MetricClosure> verdicts;  ///< that changed (VerdictChanges)
     Figures figures;
     urban_nav_core::Status status;
     std::string reason_name;

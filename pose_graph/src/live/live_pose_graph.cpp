@@ -386,6 +386,7 @@ LiveGraph::Outcome LivePoseGraph::finish(const Relaxed& relaxed) {
   updateMapToOdom();
   for (const Relaxed::Run& run : relaxed.moved) revisions_[run.track].setMoved({run.first, run.last}, relaxed.revision);
   Outcome outcome = toOutcome(relaxed, graph_);
+  outcome.verdicts = verdicts_.take(graph_);
   outcome.figures.closures_given_up = given_up_;
   outcome.status = status();
   outcome.reason_name = toString(static_cast<Trouble>(outcome.status.reason));
@@ -482,6 +483,7 @@ void LivePoseGraph::reset() {
   ready_.clear();
   changed_ = batch_due_ = session_ended_ = fixes_due_ = false;
   ++generation_;
+  verdicts_.clear();
   map_to_odom_.forgetSessions();
   updateMapToOdom();
 }

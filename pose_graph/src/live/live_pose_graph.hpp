@@ -15,6 +15,7 @@
 #include "live/map_to_odom_estimator.hpp"
 #include "live/pose_revisions.hpp"
 #include "live/specific_force_buffer.hpp"
+#include "live/verdict_changes.hpp"
 #include "pose_graph/graph_store_writer.hpp"
 #include "pose_graph/pose_graph.hpp"
 #include "urban_nav_live/session_namer.hpp"
@@ -120,6 +121,7 @@ class LivePoseGraph : public LiveGraph {
   urban_nav_live::TimeJumpDetector odometry_time_;          // of the active session
   std::map<SessionId, urban_nav_store::Session> sessions_;  // of the graph and of the store
   std::set<SessionId> resumable_;                           // begun by an earlier process
+  VerdictChanges verdicts_;
   std::deque<Held> held_;                                   // until their poses appear in odometry
   std::vector<PoseRevisions> revisions_;                    // per track
   std::deque<Outcome> ready_;                               // results of relaxations made by services

@@ -95,6 +95,7 @@ constexpr const char* kGraphUpdate = "graph/update";
 constexpr const char* kGraphCorrection = "graph/correction";
 constexpr const char* kGraphPath = "graph/path";
 constexpr const char* kGraphState = "graph/state";
+constexpr const char* kGraphVerdicts = "graph/verdicts";
 constexpr const char* kGraphMarkers = "graph/markers";
 
 // urban_nav_trust.

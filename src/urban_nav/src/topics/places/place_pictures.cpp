@@ -39,7 +39,8 @@ std::string readThumbnail(urban_nav_store::Store& store, const MapContext& conte
 std::string printCaption(const PlaceBelief& belief, const fabmap_node::LikelyPlace& place) {
   return std::string(toString(belief.knowledge)) + ", probability " +
          urban_nav_core::formatNumber(place.probability, 4) + ", " + std::to_string(belief.agreeing) +
-         " descriptors agree. Above: " + place.at.session + ", " + urban_nav_core::printStamp(place.at.stamp) +
+         " descriptors agree" + (place.verdict ? std::string(", ") + toString(*place.verdict) + " by geometry" : "") +
+         ". Above: " + place.at.session + ", " + urban_nav_core::printStamp(place.at.stamp) +
          " s; below: " + belief.at.session + ", " + urban_nav_core::printStamp(belief.at.stamp) + " s.";
 }
 

@@ -16,6 +16,7 @@ namespace {
 
 struct KnowledgeCounts {
   std::size_t known = 0, unsure = 0, fresh = 0, stationary = 0;
+  std::size_t accepted = 0, rejected = 0;  // of these, by geometry at the likeliest place
 };
 
 KnowledgeCounts countKnowledge(const PlacesRun& run) {
@@ -27,6 +28,9 @@ KnowledgeCounts countKnowledge(const PlacesRun& run) {
       else if (belief.knowledge == PlaceKnowledge::Known) ++counts.known;
       else if (belief.knowledge == PlaceKnowledge::Unsure) ++counts.unsure;
       else ++counts.fresh;
+      if (belief.is_stationary || belief.likeliest.empty() || !belief.likeliest.front().verdict) continue;
+      const bool is_accepted = fabmap_node::logRatio(*belief.likeliest.front().verdict) > 0.0;
+      ++(is_accepted ? counts.accepted : counts.rejected);
     }
   return counts;
 }
@@ -73,8 +77,11 @@ PageTable knowledgeTable(const PlacesRun& run) {
                   {{"KNOWN: a place of the map", std::to_string(counts.known)},
                    {"UNSURE", std::to_string(counts.unsure)},
                    {"NEW", std::to_string(counts.fresh)},
-                   {"robot at rest", std::to_string(counts.stationary)}},
-                  "Closures are proposed for KNOWN and UNSURE places and verified by geometry."};
+                   {"robot at rest", std::to_string(counts.stationary)},
+                   {"likeliest place accepted by geometry", std::to_string(counts.accepted)},
+                   {"likeliest place rejected by geometry", std::to_string(counts.rejected)}},
+                  "Closures are proposed for KNOWN and UNSURE places and verified by geometry. Verdicts change the "
+                  "probabilities, also of neighbouring observations on the same path."};
   for (const auto& [reason, number] : run.unused) table.rows.push_back({"not used: " + reason, std::to_string(number)});
   if (run.incomplete > 0) table.rows.push_back({"with a camera missing", std::to_string(run.incomplete)});
   return table;
@@ -88,7 +95,7 @@ Section placesSection(const PlacesRun& run, const std::vector<PagePicture>& pict
   section.title = "Places";
   section.introduction =
       "Places are recognised by appearance only (FAB-MAP). The probability that an observation shows a place of "
-      "the map is calibrated on drives not used for training.";
+      "the map is calibrated on drives not used for training; verdicts on closures change it.";
   section.figures.push_back({"Probability over time", renderSvg(beliefPlot(run)),
                              "One dot per observation; sessions follow one another.", true});
   section.pictures = pictures;
@@ -123,6 +130,8 @@ Json toJson(const PlacesRun& run, const std::vector<double>& ms_features) {
   json["known"] = static_cast<std::int64_t>(counts.known);
   json["unsure"] = static_cast<std::int64_t>(counts.unsure);
   json["new"] = static_cast<std::int64_t>(counts.fresh);
+  json["accepted"] = static_cast<std::int64_t>(counts.accepted);
+  json["rejected"] = static_cast<std::int64_t>(counts.rejected);
   json["stationary"] = static_cast<std::int64_t>(counts.stationary);
   Json unused = Json::object();
   for (const auto& [reason, number] : run.unused) unused[reason] = static_cast<std::int64_t>(number);

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <utility>
 
-#include "fabmap_node/decision/travelled_distance.hpp"
 #include "fabmap_node/store/place_rows.hpp"
 #include "map/map_division.hpp"
 #include "urban_nav_store/table_store.hpp"
@@ -19,14 +18,6 @@ using urban_nav_store::StoredPlace;
 using urban_nav_store::TableStore;
 
 namespace {
-
-/// Returns distances along the smoothed odometry, which is in the store, so that places do not depend on whether a
-/// session was read by this or an earlier run.
-TravelledDistance travelledDistance(const SessionOdometry& run) {
-  TravelledDistance travelled;
-  for (const SmoothedFrame& frame : run.settled) travelled.add(frame.stamp, frame.T_odom_base.pose.t());
-  return travelled;
-}
 
 /// Returns whether the places of a session are known from the beginning.
 bool isKnown(const MapContext& context, std::size_t session) {
@@ -107,6 +98,12 @@ class GroupRecognition {
 };
 
 }  // namespace
+
+TravelledDistance travelledDistance(const SessionOdometry& run) {
+  TravelledDistance travelled;
+  for (const SmoothedFrame& frame : run.settled) travelled.add(frame.stamp, frame.T_odom_base.pose.t());
+  return travelled;
+}
 
 PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model,
                     const MapContext& context) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/page.hpp"
+#include "fabmap_node/decision/travelled_distance.hpp"
 #include "fabmap_node/fab_map.hpp"
 #include "map/context.hpp"
 #include "topics/places/place_writer.hpp"
@@ -31,6 +32,10 @@ struct PlacesRun {
 /// has a map of its own. The result does not depend on the number of threads.
 PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model,
                     const MapContext& context);
+
+/// Returns distances along the smoothed odometry of a session, which is in the store, so that places do not depend on
+/// whether it was read by this or an earlier run.
+fabmap_node::TravelledDistance travelledDistance(const SessionOdometry& run);
 
 /// Returns pairs of thumbnails of recognised places, the query below the place: some with the highest probability, and
 /// some with the lowest above the threshold for closures.

@@ -3,6 +3,7 @@
 
 #include "base/plot.hpp"
 #include "map/odometry_source.hpp"
+#include "topics/places/place_verdicts.hpp"
 #include "topics/places/places_pass.hpp"
 #include "topics/places/places_report.hpp"
 #include "topics/places/places_run.hpp"
@@ -42,7 +43,6 @@ class PlacesStage final : public Stage {
 
   Messages run(MapContext& context) override {
     run_ = runPlaces(context.options.parameters.get(fabmap_node::table()), *model(context), context);
-    pictures_ = placePictures(*run_, context);
     if (!context.groups.empty()) context.closures = context.given;  // instead of those within larger groups
     if (isRequested(context.options, "loops")) addProposed(run_->closures, "places", context.closures);
     if (run_->observations == 0) return {{}, run_->warnings};
@@ -51,13 +51,14 @@ class PlacesStage final : public Stage {
             run_->warnings};
   }
 
-  StageResult result(const MapContext&) const override {
+  StageResult result(const MapContext& context) const override {
     StageResult made;
     if (!run_) return made;
-    made.summary = toJson(*run_, ms_features_);
-    if (run_->observations == 0) return made;
-    made.verdicts = placesVerdicts(*run_);
-    made.sections.push_back({report_place::kClosures + 10, placesSection(*run_, pictures_)});
+    const PlacesRun verified = withVerdicts(*run_, context.options.parameters.get(fabmap_node::table()), context);
+    made.summary = toJson(verified, ms_features_);
+    if (verified.observations == 0) return made;
+    made.verdicts = placesVerdicts(verified);
+    made.sections.push_back({report_place::kClosures + 10, placesSection(verified, placePictures(verified, context))});
     return made;
   }
 
@@ -70,7 +71,6 @@ class PlacesStage final : public Stage {
   std::shared_ptr<const LoadedPlaceModel> model_;
   std::vector<double> ms_features_;
   std::optional<PlacesRun> run_;
-  std::vector<PagePicture> pictures_;
 };
 
 }  // namespace
