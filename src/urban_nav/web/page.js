@@ -121,13 +121,15 @@
     loadingPoints = true;
     try {
       while (pointsRevision !== state.revision) {
-        const {revision, sessions} = state,
+        const {revision, sessions, tests = []} = state,
           [json, bytes] = await Promise.all([server.json("/api/tiles"), server.bytes("/api/moves")]);
         if (revision !== state.revision) continue;
         pointsRevision = revision;
         const list = nav.readTileList(json);
         if (!view.list || JSON.stringify(view.list.sets) !== JSON.stringify(list.sets)) view.setList(list);
-        view.place(nav.tilePlacement(list.sets, nav.readMoves(bytes, list.sets), sessions, shifts), nav.sessionColours);
+        const trusted = nav.trustColours(tests),
+          trust = (session, pose) => trusted(session, paths[session] ? paths[session].times[pose] : NaN);
+        view.place(nav.tilePlacement(list.sets, nav.readMoves(bytes, list.sets), sessions, shifts), nav.sessionColours, trust);
         byId("colour").disabled = list.tiles.length === 0;
         byId("points").dataset.revision = revision;
         draw();

@@ -22,9 +22,23 @@
     return [heights[count >> 6] || 0, heights[count - 1 - (count >> 6)] || 1];
   };
 
+  const TRUST = {failed: [214, 69, 65], corrected: [230, 160, 50], passed: [80, 165, 95], untested: [165, 165, 165]};
+
+  /** Colour of a moment, from the index of its session and s from its first pose, by the consistency tests whose intervals
+   * hold it: red where one failed, orange where its cause was corrected, green where all passed, grey without tests. */
+  nav.trustColours = (tests) => {
+    const bySession = new Map();
+    for (const each of tests) bySession.set(each.session, [...(bySession.get(each.session) || []), each]);
+    return (session, seconds) => {
+      const its = (bySession.get(session) || []).filter(({from, to}) => from <= seconds && seconds <= to);
+      return TRUST[["failed", "corrected", "passed"].find((verdict) => its.some((t) => t.verdict === verdict)) || "untested"];
+    };
+  };
+
   /** The ways of colouring points: functions by name, from the index of a point to red, green, blue. What the points hold
-   * decides which there are; `layout` has the offsets of the values of a point. `range`: of heights, from blue to red. */
-  nav.colourModes = (points, sessionColours, range = nav.heightRange(points)) => {
+   * decides which there are; `layout` has the offsets of the values of a point. `range`: of heights, from blue to red. `trust`: colour of a pose of a
+   * session, both by index. */
+  nav.colourModes = (points, sessionColours, range = nav.heightRange(points), trust = null) => {
     const {places, owner, values, layout} = points,
       at = (i, name) => values[layout.stride * i + layout[name]],
       kind = (value) => KINDS[value % KINDS.length],
@@ -37,6 +51,7 @@
       sensor: (i) => kind(at(i, "sensor")),
       sigma: (i) => nav.ramp(Math.sqrt(at(i, "sigma") / 255)),
     };
+    if (trust && points.poses) modes.trust = (i) => trust(owner[i], points.poses[i]);
     if (owner) modes.session = (i) => rgb[owner[i] % rgb.length];
     if ("pass" in layout) modes.pass = (i) => kind(at(i, "pass"));
     if ("quality" in layout)
@@ -54,10 +69,10 @@
     }
     return colours;
   };
-  nav.colourPoints = (points, mode, sessionColours, range) => {
+  nav.colourPoints = (points, mode, sessionColours, range, trust) => {
     const {count, values, layout} = points;
     if (mode !== "pictures" && mode !== "reflectance")
-      return nav.paintPoints(count, nav.colourModes(points, sessionColours, range)[mode]);
+      return nav.paintPoints(count, nav.colourModes(points, sessionColours, range, trust)[mode]);
     const colours = new Uint8Array(4 * count), // the same as by colourModes(), without a call for each point
       step = mode === "pictures" ? 1 : 0,
       first = mode === "pictures" ? layout.red : layout.reflectance;

@@ -28,10 +28,11 @@
       this.heights = null;
       this.frame = null;
     }
-    /** Moves all points. */
-    place(placement, sessionColours) {
+    /** Moves all points. `trust`: colour of a pose of a session, both by index. */
+    place(placement, sessionColours, trust = null) {
       this.placement = placement;
       this.sessionColours = sessionColours;
+      this.trust = trust;
       this.middles = this.list.tiles.map((tile) => nav.tileMiddle(tile, placement));
       for (const [tile, {points, cloud}] of this.loaded) {
         nav.placeTile(points, tile, placement);
@@ -46,7 +47,7 @@
     }
     paint(points, cloud) {
       this.heights ??= nav.heightRange(points); // in the first, coarsest tile
-      this.points.fill(cloud.coloured, nav.colourPoints(points, this.mode, this.sessionColours, this.heights));
+      this.points.fill(cloud.coloured, nav.colourPoints(points, this.mode, this.sessionColours, this.heights, this.trust));
     }
 
     /** Draws a view, {matrix, eye, focal}: anew if it differs from the one before, else more of it. */

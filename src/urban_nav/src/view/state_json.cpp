@@ -37,6 +37,16 @@ Json endAsJson(const urban_nav_store::NodeRef& ref, double seconds,
                        {"t", urban_nav_core::printStamp(ref.stamp)}});
 }
 
+/// `session`: index in the list of sessions; `begin`: stamp of its first pose.
+Json testAsJson(const urban_nav_store::StoredTest& test, std::size_t session, urban_nav_core::StampNs begin) {
+  return Json::object({{"name", test.name},
+                       {"verdict", test.verdict},
+                       {"session", session},
+                       {"from", urban_nav_core::secondsBetween(begin, test.from)},
+                       {"to", urban_nav_core::secondsBetween(begin, test.to)},
+                       {"sentence", test.sentence}});
+}
+
 }  // namespace
 
 void appendFloat32(std::string& bytes, double value) {
@@ -53,11 +63,13 @@ Json stateAsJson(const ShownState& state) {
                             {"read_only", state.read_only},
                             {"written_by_another", state.written_by_another}});
   std::map<urban_nav_store::SessionId, std::size_t> places;
+  std::vector<urban_nav_core::StampNs> begins;
   Json& sessions = json["sessions"] = Json::array();
   for (std::size_t m = 0; m < state.maps.size(); ++m)
     for (const StoredTrajectory& each : state.maps[m]) {
       const std::size_t place = places.size();
       places[each.session.id] = place;
+      begins.push_back(each.T_map_base.empty() ? 0 : each.T_map_base.front().stamp);
       sessions.append(sessionAsJson(each, m));
     }
   Json& closures = json["closures"] = Json::array();
@@ -70,6 +82,10 @@ Json stateAsJson(const ShownState& state) {
                                   {"added", urban_nav_store::isOfEdit(closure.edge.source)},
                                   {"a", endAsJson(closure.edge.a, closure.since_a, places)},
                                   {"b", endAsJson(closure.edge.b, closure.since_b, places)}}));
+  Json& tests = json["tests"] = Json::array();
+  for (const urban_nav_store::StoredTest& test : state.tests)
+    if (const auto place = places.find(test.session); place != places.end())
+      tests.append(testAsJson(test, place->second, begins[place->second]));
   Json& edits = json["edits"] = Json::array();
   bool any_in_force = false, any_redoable = false;
   for (const ListedEdit& edit : state.edits) {

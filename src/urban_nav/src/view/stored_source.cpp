@@ -21,6 +21,8 @@
 #include "urban_nav_store/store_writer.hpp"
 #include "urban_nav_store/stored_ids.hpp"
 #include "urban_nav_store/stored_map.hpp"
+#include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/stored_test.hpp"
 #include "view/state_json.hpp"
 
 namespace urban_nav {
@@ -69,12 +71,17 @@ struct StoredSource::Content {
     for (const auto& map : readMaps(store, urban_nav_store::selectSessions(store, {}))) maps.push_back(map);
     closures = listEditableClosures(store);
     edits = listEdits(store);
+    for (const auto& map : maps)
+      for (const StoredTrajectory& each : map)
+        urban_nav_store::TableStore<urban_nav_store::StoredTest>(store).forEach(
+            each.session.id, [this](const urban_nav_store::StoredTest& test) { tests.push_back(test); });
   }
 
   Store store;
   std::vector<std::vector<StoredTrajectory>> maps;
   std::vector<StoredClosure> closures;
   std::vector<ListedEdit> edits;
+  std::vector<urban_nav_store::StoredTest> tests;
   std::map<std::int64_t, Page> explanations;
 };
 
@@ -118,7 +125,7 @@ auto StoredSource::reading(const Read& read) {
 
 std::string StoredSource::state() {
   return reading([&](const Content& content) {
-    ShownState shown{content.maps, content.closures, content.edits};
+    ShownState shown{content.maps, content.closures, content.edits, content.tests};
     shown.store = path_;
     shown.revision = events_.state().revision;
     shown.read_only = read_only_;

@@ -529,3 +529,29 @@ test("tiles are fetched and drawn once, a view that moves begins anew, and a til
   view.setList(nav.readTileList(LIST));
   assert.strictEqual(points.drawn.filter((word) => word === "removed").length, 3);
 });
+
+test("trust colours a point by the tests of its time", () => {
+  const test = (verdict, session, from, to) => ({name: "any", verdict, session, from, to, sentence: ""}),
+    colour = nav.trustColours([test("passed", 0, 0, 10), test("failed", 0, 4, 6), test("corrected", 0, 5, 8), test("passed", 1, 2, 3)]),
+    [red, green, blue] = [0, 1, 2],
+    dominates = (c, k) => c.every((v, other) => other === k || v < c[k]);
+  assert.ok(dominates(colour(0, 5), red), "a failure counts more than what passed or was corrected");
+  assert.ok(dominates(colour(0, 1), green));
+  assert.notDeepStrictEqual(colour(0, 7), colour(0, 5));
+  assert.notDeepStrictEqual(colour(0, 7), colour(0, 1));
+  const untested = colour(1, 9);
+  assert.strictEqual(untested[red], untested[blue], "grey without a test");
+  assert.deepStrictEqual(colour(7, 1), untested);
+  assert.deepStrictEqual(colour(0, NaN), untested);
+  const points = {
+    count: 2,
+    places: new Float32Array(6),
+    values: new Uint8Array(12),
+    owner: [0, 0],
+    poses: [0, 1],
+    layout: {stride: 6, red: 0, reflectance: 3, sensor: 4, sigma: 5},
+  };
+  const painted = nav.colourPoints(points, "trust", [], [0, 1], (session, pose) => colour(session, pose === 0 ? 1 : 5));
+  assert.deepStrictEqual([...painted.slice(0, 3)], colour(0, 1));
+  assert.deepStrictEqual([...painted.slice(4, 7)], colour(0, 5));
+});
