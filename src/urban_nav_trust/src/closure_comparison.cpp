@@ -108,7 +108,7 @@ void testPlanes(const std::vector<ClosureDifference>& planes, const char* absent
                   formatNumber(std::sqrt(median.perAxis()), 3) + " times the stated standard deviation.";
   test.remedy =
       "The passes do not fit together: odometry drifts more than its covariance states, or a laser has moved on its "
-      "mount between them. Look at the walls in the map, and check the calibration of the stereo pair and of the "
+      "mount between them. Inspect the walls in the map, and check the calibration of the stereo pair and of the "
       "lasers (`urban_nav map --calibrate`).";
   results.tests.push_back(std::move(test));
 }

@@ -26,7 +26,7 @@ constexpr std::size_t kLeastParts = 3;     // two determine only one length
 constexpr std::size_t kFixesOfGroup = 3;   // the median excludes an outlier
 constexpr double kLongestGroup = 15.0;     // s
 constexpr double kConsecutive = 5.0;       // s between fixes whose difference shows errors of GPS only
-constexpr double kJumpByChance = 0.01;     // probability that the noise of a session looks like a jump
+constexpr double kJumpByChance = 0.01;     // probability that noise alone makes a jump in a session
 constexpr double kMedianDistance = 1.177;  // square root of the median of chi-square with two degrees of freedom
 constexpr int kAlignments = 5;
 // Relative error of horizontal distances in a map that may be tilted by 0.17 rad, as that of a robot without
@@ -186,7 +186,7 @@ PartFit fitParts(const std::vector<FixPart>& parts, const urban_nav_core::LevelM
     right -= J.transpose() * weight * parts[i].excess;
     fit.squares += parts[i].excess.dot(weight * parts[i].excess);
   }
-  information(0, 0) += 1e-12 * (1.0 + information(0, 0));  // a robot that stands has no direction
+  information(0, 0) += 1e-12 * (1.0 + information(0, 0));  // a stationary robot has no direction
   fit.motion = information.ldlt().solve(right);
   fit.squares = std::max(0.0, fit.squares - right.dot(fit.motion));
   return fit;

@@ -19,7 +19,7 @@ namespace {
 constexpr StampNs kReprojectionWindow = 1'000'000'000;
 constexpr int kLeastReprojectionFrames = 3;
 constexpr std::int64_t kReprojectionHorizon = 3600;  // windows per hour
-// Errors far below a pixel measure templates and motion rather than the cameras: a robot that stands has 0.03 px, one
+// Errors far below a pixel measure templates and motion rather than the cameras: a stationary robot has 0.03 px, one
 // that drives 0.3 px. Added in quadrature, px.
 constexpr double kHarmlessError = 0.3;
 // Standard deviation of the logarithm from second to second on sound drives (0.05 to 0.15 on three real ones and in

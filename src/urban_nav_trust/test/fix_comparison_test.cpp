@@ -72,7 +72,7 @@ TEST(FixComparison, PValuesOfSoundPathsAreAtLeastUniform) {
   }
 }
 
-TEST(FixComparison, ALongWrongPathFailsAndIsSaidToBeTheImplausibleOne) {
+TEST(FixComparison, ALongWrongPathFailsAndIsNamedAsImplausible) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const ConsistencyTest test = testDriveWithGps(DriveWithGps(seed).drive(900, 1.4));
     EXPECT_EQ(test.degrees_of_freedom, 3.0);
@@ -130,7 +130,7 @@ TEST(FixComparison, WithoutEnoughFixesItIsAbsentWithTheReason) {
   }
 }
 
-TEST(FixComparison, ARobotThatStandsIsConsistent) {
+TEST(FixComparison, AStationaryRobotIsConsistent) {
   std::vector<ComparedFix> fixes = DriveWithGps(7).drive(120);
   for (ComparedFix& fix : fixes) {
     fix.by_gps = fix.by_gps - fixes.front().by_gps;

@@ -83,11 +83,11 @@ TEST(ReprojectionMonitor, NamesALastingRiseWithItsTimeAndSize) {
   }
 }
 
-TEST(ReprojectionMonitor, AStartFromStandstillOrASingleBadSecondIsNoFault) {
+TEST(ReprojectionMonitor, AStartFromRestOrASingleBadSecondIsNoFault) {
   ReprojectionMonitor starts({}), blinded({});
-  DriveThroughScenes still(1, 0.1), drive(2, 0.1);
-  still.pass(starts, 10, 0.03);
-  EXPECT_FALSE(still.pass(starts, 60, 0.35));
+  DriveThroughScenes resting(1, 0.1), drive(2, 0.1);
+  resting.pass(starts, 10, 0.03);
+  EXPECT_FALSE(resting.pass(starts, 60, 0.35));
   EXPECT_GT(starts.test()->p_value, Parameters().false_alarm);
   drive.pass(blinded, 20, 0.35);
   EXPECT_FALSE(drive.pass(blinded, 1, 3.0));

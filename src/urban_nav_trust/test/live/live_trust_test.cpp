@@ -23,6 +23,7 @@ class LiveTrustTest : public ::testing::Test {
       frame.compared.disparity_step_px = step_px + (k_ % 2 == 0 ? 0.01 : -0.01);
       frame.compared.disparity_step_sigma_px = sigma_px;
       frame.compared.right_turn = turn;
+      frame.compared.reprojection_px = reprojection_px;
       frame.compared.turn_sigma = 1e-3;
       frame.compared.forward = 0.05;
       frame.compared.forward_sigma = has_wheels ? 1e-3 : 0.0;
@@ -43,6 +44,7 @@ class LiveTrustTest : public ::testing::Test {
   std::vector<LiveEstimate> estimates;
   LiveTrust trust{Parameters(), [this](const LiveEstimate& estimate) { estimates.push_back(estimate); }};
   bool has_wheels = true;
+  double reprojection_px = 0.3;
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   urban_nav_core::StampNs k_ = 0;
 };
@@ -115,6 +117,16 @@ TEST_F(LiveTrustTest, AKnockThatOdometryCorrectsDegradesUntilTheLandmarksAreRene
   drive(100);
   EXPECT_EQ(estimates.back().frame.state, TrustState::Unsure);
   EXPECT_LT(estimates.back().frame.probabilities[0], before);
+  EXPECT_EQ(trust.status().health, Health::Degraded);
+}
+
+TEST_F(LiveTrustTest, AReprojectionErrorThatRisesForGoodIsNamed) {
+  drive(400);
+  EXPECT_EQ(estimates.back().frame.state, TrustState::Known);
+  reprojection_px = 3.0;
+  drive(200);
+  EXPECT_EQ(estimates.back().frame.state, TrustState::Unsure);
+  EXPECT_EQ(estimates.back().frame.tests, kReprojectionTest);
   EXPECT_EQ(trust.status().health, Health::Degraded);
 }
 
