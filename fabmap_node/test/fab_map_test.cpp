@@ -127,9 +127,9 @@ TEST(FabMap, EachSessionHasItsLikeliestPlaceAndAClosure) {
   std::map<std::string, StampNs> stamps;
   for (const LikelyPlace& place : output.belief.likeliest) stamps[place.at.session] = place.at.stamp;
   EXPECT_EQ(output.belief.likeliest.size(), 3u);
-  EXPECT_EQ(stamps, (std::map<std::string, StampNs>{{"monday", 12 * kPlaceSecond},
-                                                    {"tuesday", 1012 * kPlaceSecond},
-                                                    {"wednesday", 2002 * kPlaceSecond}}));
+  EXPECT_EQ(stamps,
+            (std::map<std::string, StampNs>{
+                {"monday", 12 * kPlaceSecond}, {"tuesday", 1012 * kPlaceSecond}, {"wednesday", 2002 * kPlaceSecond}}));
   EXPECT_EQ(output.closures.size(), 3u);
   for (std::size_t i = 1; i < output.belief.likeliest.size(); ++i)
     EXPECT_LE(output.belief.likeliest[i].probability, output.belief.likeliest[i - 1].probability);

@@ -13,8 +13,8 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr int kLooksOfSession = 10;  // of a session without a place among the likeliest of all: as many as all of which
-                                     // are compared
+constexpr int kComparedOfSession = 10;  // for a session without a place among the likeliest of all: as many as all of
+                                        // which are compared
 
 }  // namespace
 
@@ -47,9 +47,8 @@ PlaceRecognition PlaceRecogniser::process(StampNs stamp, const PlaceDescription&
   DescribedPlace query{session_, stamp, description.words, description.look};
   if (options_.sequence && options_.detects_stationary) followLook(description.look);
   std::vector<RecognisedPlace> places = recogniseSessions(query, description.cameras);
-  std::stable_sort(places.begin(), places.end(), [](const RecognisedPlace& a, const RecognisedPlace& b) {
-    return a.probability > b.probability;
-  });
+  std::stable_sort(places.begin(), places.end(),
+                   [](const RecognisedPlace& a, const RecognisedPlace& b) { return a.probability > b.probability; });
   if (!places.empty()) {
     result.match = places.front().match;
     result.probability = places.front().probability;
@@ -64,20 +63,19 @@ PlaceRecognition PlaceRecogniser::process(StampNs stamp, const PlaceDescription&
 std::vector<RecognisedPlace> PlaceRecogniser::recogniseSessions(const DescribedPlace& query, int cameras) {
   const StampNs newest = query.stamp - options_.mask;
   const WordLikelihoods likelihoods = matcher_.likelihoods(query);
-  const int looks = options_.matcher.first_looks;
-  std::vector<PlaceMatch> matches = matcher_.matches(query, likelihoods, looks, [&](std::size_t i) {
+  std::vector<PlaceMatch> matches = matcher_.matches(query, likelihoods, std::nullopt, [&](std::size_t i) {
     const DescribedPlace& place = matcher_.place(i);
     return place.session != session_ || place.stamp <= newest;
   });
   std::vector<RecognisedPlace> found;
   if (!matches.empty() && matches.front().session == session_) {
     found.push_back(recognise(matches.front(), cameras));
-    matches = matcher_.matches(query, likelihoods, looks,
+    matches = matcher_.matches(query, likelihoods, std::nullopt,
                                [&](std::size_t i) { return matcher_.place(i).session != session_; });
   }
   if (!matches.empty()) found.push_back(recogniseBySequence(matches, cameras));
   for (const std::size_t session : furtherSessions(likelihoods, newest, found)) {
-    const std::vector<PlaceMatch> own = matcher_.matches(query, likelihoods, kLooksOfSession, [&](std::size_t i) {
+    const std::vector<PlaceMatch> own = matcher_.matches(query, likelihoods, kComparedOfSession, [&](std::size_t i) {
       const DescribedPlace& place = matcher_.place(i);
       return place.session == session && (session != session_ || place.stamp <= newest);
     });
@@ -117,7 +115,8 @@ RecognisedPlace PlaceRecogniser::recognise(const PlaceMatch& match, int cameras)
 }
 
 /// Returns the likeliest place under the prior of the sequence, which is used for places of other sessions only. Within
-/// a session, a repetitive facade is matched at a constant distance from the robot, which is as consistent as a revisit.
+/// a session, a repetitive facade is matched at a constant distance from the robot, which is as consistent as a
+/// revisit.
 RecognisedPlace PlaceRecogniser::recogniseBySequence(const std::vector<PlaceMatch>& matches, int cameras) {
   const std::optional<PlaceCalibration>& sequence = model_.sequenceCalibration(cameras);
   RecognisedPlace recognised = recognise(matches.front(), cameras);

@@ -22,7 +22,7 @@ struct LikelyPlace {
   urban_nav_core::PoseRef at;
   double probability = 0.0;
   double travelled = 0.0;               ///< to the place in its session, m
-  std::optional<PlaceVerdict> verdict;  ///< of geometry on this place, included in the probability
+  std::optional<PlaceVerdict> verdict;  ///< geometric verification, included in the probability
 };
 
 /// Place belief after an observation.

@@ -39,7 +39,7 @@ struct PlaceRecognition {
 /// becomes a place itself. Calls must be in order of time. Not thread-safe.
 class PlaceRecogniser {
  public:
-  static constexpr std::size_t kMostSessions = 6;  ///< of which a place is returned: those of likeliest words
+  static constexpr std::size_t kMostSessions = 6;  ///< with a place in the result: those with the likeliest words
 
   /// The model must outlive this object. `read_look`: see PlaceMatcher.
   PlaceRecogniser(const PlaceModel& model, const RecogniserOptions& options, LookReader read_look = {});
