@@ -54,7 +54,7 @@ PlaceBelief FabMap::toBelief(const PlaceRecognition& recognition) const {
     belief.agreeing = recognition.match->agreeing;
     add(*recognition.match, recognition.probability);
   }
-  if (recognition.earlier) add(*recognition.earlier, recognition.earlier_probability);
+  for (const RecognisedPlace& other : recognition.others) add(other.match, other.probability);
   decide(parameters_, belief);
   return belief;
 }
@@ -97,7 +97,7 @@ PlaceOutput FabMap::process(StampNs stamp, const PlaceDescription& description, 
       output.closures.push_back({{sessions_[place.session], place.stamp}, output.belief.at, probability});
   };
   if (recognition.match) propose(*recognition.match, recognition.probability);
-  if (recognition.earlier) propose(*recognition.earlier, recognition.earlier_probability);
+  for (const RecognisedPlace& other : recognition.others) propose(other.match, other.probability);
   last_belief_ = output.belief;
   return output;
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "fabmap_node/training/train_model.hpp"
 #include "support/synthetic_places.hpp"
@@ -109,6 +110,57 @@ TEST(FabMap, APlacePassedAgainOnOneDayIsProposedForAnotherDay) {
   ASSERT_EQ(output.belief.likeliest.size(), 2u) << "the likeliest place of each session";
   EXPECT_GE(output.belief.likeliest[0].probability, output.belief.likeliest[1].probability);
   EXPECT_DOUBLE_EQ(output.belief.p_new, 1.0 - output.belief.likeliest[0].probability);
+}
+
+TEST(FabMap, EachSessionHasItsLikeliestPlaceAndAClosure) {
+  FabMap map(syntheticModel(), Parameters());
+  const std::vector<std::string> days = {"monday", "tuesday", "wednesday"};
+  for (std::uint32_t day = 0; day < 2; ++day) {
+    map.beginSession(days[day]);
+    for (std::uint32_t i = 0; i < 40; ++i)
+      map.process((1000 * day + i) * kPlaceSecond, describeNumber(5000 + i, day), 6.0 * i);
+  }
+  map.beginSession(days[2]);
+  for (std::uint32_t i = 0; i < 35; ++i)
+    map.process((2000 + i) * kPlaceSecond, describeNumber(i == 2 ? 5012 : 9000 + i, 2), 6.0 * i);
+  const PlaceOutput output = map.process(2040 * kPlaceSecond, describeNumber(5012, 3), 6.0 * 40);
+  std::map<std::string, StampNs> stamps;
+  for (const LikelyPlace& place : output.belief.likeliest) stamps[place.at.session] = place.at.stamp;
+  EXPECT_EQ(output.belief.likeliest.size(), 3u);
+  EXPECT_EQ(stamps,
+            (std::map<std::string, StampNs>{
+                {"monday", 12 * kPlaceSecond}, {"tuesday", 1012 * kPlaceSecond}, {"wednesday", 2002 * kPlaceSecond}}));
+  EXPECT_EQ(output.closures.size(), 3u);
+  for (std::size_t i = 1; i < output.belief.likeliest.size(); ++i)
+    EXPECT_LE(output.belief.likeliest[i].probability, output.belief.likeliest[i - 1].probability);
+}
+
+TEST(FabMap, APlaceOfTodayDoesNotChangeTheProbabilityOfYesterdays) {
+  const auto yesterdays = [](bool is_known_today) {
+    FabMap map(syntheticModel(), Parameters());
+    map.beginSession("monday");
+    for (std::uint32_t i = 0; i < 40; ++i) map.process(i * kPlaceSecond, describeNumber(5000 + i, 0), 6.0 * i);
+    map.beginSession("tuesday");
+    for (std::uint32_t i = 0; i < 35; ++i)
+      map.process((1000 + i) * kPlaceSecond, describeNumber(i == 2 && is_known_today ? 5012 : 9000 + i, 3), 6.0 * i);
+    const PlaceOutput output = map.process(1040 * kPlaceSecond, describeNumber(5012, 3), 6.0 * 40);
+    for (const LikelyPlace& place : output.belief.likeliest)
+      if (place.at.session == "monday" && place.at.stamp == 12 * kPlaceSecond) return place.probability;
+    return -1.0;
+  };
+  EXPECT_GT(yesterdays(false), 0.0);
+  EXPECT_DOUBLE_EQ(yesterdays(true), yesterdays(false));
+}
+
+TEST(FabMap, PlacesOfAtMostSixSessionsAreReturned) {
+  FabMap map(syntheticModel(), Parameters());
+  for (std::uint32_t day = 0; day < 9; ++day) {
+    map.beginSession("day " + std::to_string(day));
+    map.addPlace(1000 * day * kPlaceSecond, describeNumber(7, day), 0.0);
+  }
+  map.beginSession("today");
+  const PlaceOutput output = map.process(20'000 * kPlaceSecond, describeNumber(7, 10), 0.0);
+  EXPECT_EQ(output.belief.likeliest.size(), PlaceRecogniser::kMostSessions);
 }
 
 TEST(FabMap, DistancesAreInterpolatedBetweenThePlacesOfASession) {

@@ -16,8 +16,8 @@ namespace fabmap_node {
 /// Belief after an observation, and the closures to be measured.
 struct PlaceOutput {
   PlaceBelief belief;
-  /// a: the earlier place, b: the observation. If the likeliest place is of the same session, one of another session
-  /// may be proposed too, so that a place revisited within a day is also connected to other days.
+  /// a: the earlier place, b: the observation. At most one of each session in the belief, so that a place revisited
+  /// within a day is also connected to other days.
   std::vector<urban_nav_core::TopologicalClosure> closures;
 };
 

@@ -15,10 +15,10 @@ using urban_nav_core::StampNs;
 
 namespace {
 
-constexpr double kStaysOnPath = 10.0;  // m, mean distance along which the robot follows an earlier path: twenty
-                                       // observations, as LocationFilter, at 2 Hz and 1 m/s
-constexpr double kReach = 30.0;        // m; beyond, a verdict counts for less than a twentieth: exp(-30 / 10)
-constexpr double kSamePlace = 5.0;     // m: half the length of a path part that is one place, as ClosureSelector
+constexpr double kStaysOnPath = 10.0;   // m, mean distance along which the robot follows an earlier path: twenty
+                                        // observations, as LocationFilter, at 2 Hz and 1 m/s
+constexpr double kReach = 30.0;         // m; beyond, a verdict counts for less than a twentieth: exp(-30 / 10)
+constexpr double kPathTolerance = 5.0;  // m: half the length of a path part that is one place, as ClosureSelector
 constexpr double kSmallestProbability = 1e-9;
 constexpr StampNs kOneMoment = 500'000'000;  // ns, period of panoramas: verdicts name the nearest frame of odometry
 
@@ -40,7 +40,7 @@ double carriedLogRatio(const VerifiedClosure& closure, const PlaceBelief& belief
   const auto along_a = alongPath(place.travelled, place.at.stamp, closure.travelled_a, closure.a.stamp);
   const StampNs stamp = belief.is_stationary ? closure.b.stamp : belief.at.stamp;
   const auto along_b = alongPath(belief.travelled, stamp, closure.travelled_b, closure.b.stamp);
-  if (!along_a || !along_b || std::abs(*along_a - *along_b) > kSamePlace) return 0.0;
+  if (!along_a || !along_b || std::abs(*along_a - *along_b) > kPathTolerance) return 0.0;
   const double stays = std::exp(-*along_b / kStaysOnPath);
   return std::log(stays * std::exp(logRatio(closure.verdict)) + 1.0 - stays);
 }
@@ -58,7 +58,8 @@ std::vector<PlaceBelief> BeliefHistory::addVerdict(const VerifiedClosure& closur
   const auto known = closures_.find(poses);
   if (known != closures_.end() && isOfPoseGraph(known->second.verdict) && !isOfPoseGraph(closure.verdict)) return {};
   const auto isBefore = [](const PlaceBelief& belief, double travelled) { return belief.travelled < travelled; };
-  const auto begin = std::lower_bound(by_appearance_.begin(), by_appearance_.end(), closure.travelled_b - kReach, isBefore);
+  const auto begin =
+      std::lower_bound(by_appearance_.begin(), by_appearance_.end(), closure.travelled_b - kReach, isBefore);
   const auto end = std::lower_bound(begin, by_appearance_.end(), closure.travelled_b + kReach, isBefore);
   std::vector<PlaceKnowledge> before;
   for (auto one = begin; one != end; ++one) before.push_back(withVerdicts(*one).knowledge);

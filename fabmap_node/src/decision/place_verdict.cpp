@@ -19,11 +19,11 @@ struct VerdictCount {
   double rate() const { return (of_verdict + 1.0) / (all + 2.0); }
 };
 
-// Candidates that loop_metric accepted, of one place and of two: docs/results/loop_metric.md, quad 7, all directions; of
-// two places also the 26 closures proposed between unrelated sites in docs/results/fabmap_node.md.
+// Candidates that loop_metric accepted: docs/results/loop_metric.md, quad 7, all directions. To those that show two
+// places, the 26 closures proposed between unrelated sites in docs/results/fabmap_node.md are added.
 constexpr VerdictCount kAcceptedOfSame = {855.0, 844.0}, kAcceptedOfOther = {197.0, 0.0};
-// Closures that pose_graph rejected, true and false ones: docs/results/pose_graph.md, "False closures", drawn sets of all
-// graphs.
+// Closures that pose_graph rejected, true and false ones: docs/results/pose_graph.md, "False closures", drawn sets of
+// all graphs.
 constexpr VerdictCount kWithdrawnOfSame = {611400.0, 844.0}, kWithdrawnOfOther = {181190.0, 181152.0};
 
 constexpr const char* kPoseGraph = "pose_graph";  // source of its verdicts

@@ -77,15 +77,17 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::selectVaried(const std::vecto
 }
 
 std::vector<PlaceMatcher::Candidate> PlaceMatcher::likeliest(
-    const std::vector<double>& likelihoods, const std::function<bool(std::size_t)>& isCandidate) const {
+    const std::vector<double>& likelihoods, std::optional<int> compared,
+    const std::function<bool(std::size_t)>& isCandidate) const {
   std::vector<Candidate> all;
   for (std::size_t i = 0; i < likelihoods.size(); ++i)
     if (isCandidate(i)) all.push_back({i, likelihoods[i], {}});
   const auto isLikelier = [](const Candidate& a, const Candidate& b) {
     return a.log_likelihood != b.log_likelihood ? a.log_likelihood > b.log_likelihood : a.place < b.place;
   };
-  const int wanted =
-      options_.second_looks > 0 ? std::max(options_.first_looks, options_.second_looks) : kSmallestSelection;
+  const int wanted = options_.second_looks > 0
+                         ? std::max(compared.value_or(options_.first_looks), options_.second_looks)
+                         : kSmallestSelection;
   // In a large map, the first ones nearly always suffice.
   if (all.size() > kMostSorted) {
     const auto sorted = all.begin() + static_cast<std::ptrdiff_t>(kMostSorted);
@@ -148,9 +150,9 @@ double PlaceMatcher::logLikelihoodNew(const WordSet& query) const {
 }
 
 std::vector<PlaceMatcher::Candidate> PlaceMatcher::comparedCandidates(
-    const DescribedPlace& query, const std::vector<double>& likelihoods,
+    const DescribedPlace& query, const std::vector<double>& likelihoods, std::optional<int> compared,
     const std::function<bool(std::size_t)>& isCandidate) const {
-  std::vector<Candidate> candidates = likeliest(likelihoods, isCandidate);
+  std::vector<Candidate> candidates = likeliest(likelihoods, compared, isCandidate);
   if (options_.second_looks > 0 && !candidates.empty()) {
     const ComparedFeatures own = unpackPlaceLook(query.look, query);
     const bool is_reduced = candidates.size() > static_cast<std::size_t>(options_.second_looks);
@@ -169,16 +171,25 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::comparedCandidates(
   return candidates;
 }
 
+WordLikelihoods PlaceMatcher::likelihoods(const DescribedPlace& query) const {
+  WordLikelihoods likelihoods;
+  index_.logLikelihoods(query.words, likelihoods.at_places);
+  likelihoods.at_new = logLikelihoodNew(query.words);
+  return likelihoods;
+}
+
+std::vector<PlaceMatch> PlaceMatcher::matches(const DescribedPlace& query, const WordLikelihoods& likelihoods,
+                                              std::optional<int> compared,
+                                              const std::function<bool(std::size_t)>& isCandidate) const {
+  const std::vector<Candidate> candidates = comparedCandidates(query, likelihoods.at_places, compared, isCandidate);
+  std::vector<PlaceMatch> found;
+  for (std::size_t i = 0; i < candidates.size(); ++i) found.push_back(judge(query, candidates, i, likelihoods.at_new));
+  return found;
+}
+
 std::vector<PlaceMatch> PlaceMatcher::matches(const DescribedPlace& query,
                                               const std::function<bool(std::size_t)>& isCandidate) const {
-  std::vector<double> likelihoods;
-  index_.logLikelihoods(query.words, likelihoods);
-  const std::vector<Candidate> candidates = comparedCandidates(query, likelihoods, isCandidate);
-  if (candidates.empty()) return {};
-  const double at_new = logLikelihoodNew(query.words);
-  std::vector<PlaceMatch> found;
-  for (std::size_t i = 0; i < candidates.size(); ++i) found.push_back(judge(query, candidates, i, at_new));
-  return found;
+  return matches(query, likelihoods(query), std::nullopt, isCandidate);
 }
 
 PlaceComparison PlaceMatcher::compare(const DescribedPlace& query, std::size_t place,
@@ -186,7 +197,7 @@ PlaceComparison PlaceMatcher::compare(const DescribedPlace& query, std::size_t p
   PlaceComparison comparison;
   std::vector<double> likelihoods;
   index_.logLikelihoods(query.words, likelihoods);
-  std::vector<Candidate> candidates = comparedCandidates(query, likelihoods, isCandidate);
+  std::vector<Candidate> candidates = comparedCandidates(query, likelihoods, std::nullopt, isCandidate);
   auto found = std::find_if(candidates.begin(), candidates.end(),
                             [place](const Candidate& candidate) { return candidate.place == place; });
   comparison.is_compared = found != candidates.end();

@@ -51,7 +51,7 @@ TEST(BeliefHistory, AVerdictMultipliesTheOddsByItsRatio) {
 }
 
 TEST(BeliefHistory, AnyProposedPlaceBecomesKnownByTheGraphAndARejectedOneLessProbable) {
-  const double least = Parameters().closure_probability;  // of a proposed place
+  const double least = Parameters().closure_probability;  // a proposed place has more
   BeliefHistory history{Parameters()};
   history.add(beliefAt(10, least + 0.001, 50));
   history.add(beliefAt(100, 0.995, 140));

@@ -122,15 +122,15 @@ class LivePoseGraph : public LiveGraph {
   std::map<SessionId, urban_nav_store::Session> sessions_;  // of the graph and of the store
   std::set<SessionId> resumable_;                           // begun by an earlier process
   VerdictChanges verdicts_;
-  std::deque<Held> held_;                                   // until their poses appear in odometry
-  std::vector<PoseRevisions> revisions_;                    // per track
-  std::deque<Outcome> ready_;                               // results of relaxations made by services
-  bool changed_ = false;                                    // since the last relaxation
-  bool batch_due_ = false;      // an update is insufficient: sessions were loaded or an edge was removed
-  bool is_exact_ = false;       // the last relaxation was a batch: poses are stored exactly
-  bool session_ended_ = false;  // a batch follows
-  bool fixes_due_ = false;      // enough fixes since the last batch: a batch follows
-  int generation_ = 0;          // generation of the graph; batches of earlier ones are discarded
+  std::deque<Held> held_;                 // until their poses appear in odometry
+  std::vector<PoseRevisions> revisions_;  // per track
+  std::deque<Outcome> ready_;             // results of relaxations made by services
+  bool changed_ = false;                  // since the last relaxation
+  bool batch_due_ = false;                // an update is insufficient: sessions were loaded or an edge was removed
+  bool is_exact_ = false;                 // the last relaxation was a batch: poses are stored exactly
+  bool session_ended_ = false;            // a batch follows
+  bool fixes_due_ = false;                // enough fixes since the last batch: a batch follows
+  int generation_ = 0;                    // generation of the graph; batches of earlier ones are discarded
   MapToOdomEstimator map_to_odom_;
   std::optional<Pose> T_map_odom_;
   SpecificForceBuffer forces_;

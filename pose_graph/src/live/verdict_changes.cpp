@@ -25,8 +25,7 @@ MetricClosure toMetricClosure(const Closure& closure) {
 }
 
 bool isDecided(const Closure& closure) {
-  return closure.judged &&
-         (closure.verdict == ClosureVerdict::Accepted || closure.verdict == ClosureVerdict::Rejected);
+  return closure.judged && (closure.verdict == ClosureVerdict::Accepted || closure.verdict == ClosureVerdict::Rejected);
 }
 
 }  // namespace

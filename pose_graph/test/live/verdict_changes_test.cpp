@@ -15,7 +15,8 @@ TEST(VerdictChanges, AreReportedOnceAndAgainWhenTheyChange) {
   graph.beginSession(kCircleSession);
   for (int i = 0; i < 2 * testing::kLap; ++i) graph.addOdometry(kCircleSession, testing::stepAt(i));
   VerdictChanges changes;
-  for (const int i : {10, 60, 90}) graph.addClosure(testing::closureAt(kCircleSession, i, kCircleSession, i + testing::kLap));
+  for (const int i : {10, 60, 90})
+    graph.addClosure(testing::closureAt(kCircleSession, i, kCircleSession, i + testing::kLap));
   EXPECT_TRUE(changes.take(graph).empty()) << "not relaxed yet";
   graph.relax();
   const auto accepted = changes.take(graph);

@@ -28,10 +28,10 @@ class BeliefHistory {
 
   /// Adds a belief by appearance; stamps and distances must ascend. Returns it with the verdicts so far.
   PlaceBelief add(PlaceBelief belief);
-  /// Adds a verdict, which replaces earlier ones on the same poses, except that those of the pose graph are only replaced
-  /// by its own. `b` must be of the session of the beliefs. Returns
-  /// the belief at `b`, or at the observation nearest to it, and those whose knowledge changes, in order of time, all
-  /// with the verdicts; beliefs of a robot at rest only as that of its first observation.
+  /// Adds a verdict, which replaces earlier ones on the same poses, except that those of the pose graph are only
+  /// replaced by its own. `b` must be of the session of the beliefs. Returns the belief at `b`, or at the observation
+  /// nearest to it, and those whose knowledge changes, in order of time, all with the verdicts; beliefs of a robot at
+  /// rest only as that of its first observation.
   std::vector<PlaceBelief> addVerdict(const VerifiedClosure& closure);
   /// Returns a belief of the session by appearance with the verdicts.
   PlaceBelief withVerdicts(PlaceBelief belief) const;

@@ -22,7 +22,7 @@ struct LikelyPlace {
   urban_nav_core::PoseRef at;
   double probability = 0.0;
   double travelled = 0.0;               ///< to the place in its session, m
-  std::optional<PlaceVerdict> verdict;  ///< of geometry on this place, included in the probability
+  std::optional<PlaceVerdict> verdict;  ///< geometric verification, included in the probability
 };
 
 /// Place belief after an observation.
@@ -30,8 +30,10 @@ struct PlaceBelief {
   urban_nav_core::PoseRef at;
   ObservationStatus observation = ObservationStatus::Used;  ///< nothing below is set unless Used
   PlaceKnowledge knowledge = PlaceKnowledge::New;
-  double p_new = 1.0;                  ///< probability of a place that is not in the map
-  std::vector<LikelyPlace> likeliest;  ///< in descending order of probability
+  /// Probability of a place that is not in the map: that the likeliest one is wrong. Places of several sessions may be
+  /// one place, and what is wrong with one is often wrong with all: others do not lower it.
+  double p_new = 1.0;
+  std::vector<LikelyPlace> likeliest;  ///< one of each session, in descending order of probability
   std::size_t words = 0;               ///< distinct words of the observation
   int agreeing = 0;                    ///< descriptors consistent with the likeliest place by appearance
   double travelled = 0.0;              ///< to the observation in its session, m

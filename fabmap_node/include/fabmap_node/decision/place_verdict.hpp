@@ -19,8 +19,8 @@ const char* toString(PlaceVerdict verdict);
 /// Returns whether the verdict is that of the pose graph.
 bool isOfPoseGraph(PlaceVerdict verdict);
 
-/// Returns the verdict on a closure: of the pose graph if that is its source, else of the stage that measured it. nullopt
-/// without evidence about the place: the closure is waiting, or the data of one of its poses are missing.
+/// Returns the verdict on a closure: of the pose graph if that is its source, else of the stage that measured it.
+/// nullopt without evidence about the place: the closure is waiting, or the data of one of its poses are missing.
 std::optional<PlaceVerdict> placeVerdict(const urban_nav_core::MetricClosure& closure);
 
 /// Returns the log likelihood ratio of a verdict: log P(verdict | one place) / P(verdict | two places), nats. Rates are

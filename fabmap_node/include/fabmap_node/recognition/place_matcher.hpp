@@ -44,6 +44,12 @@ struct PlaceMatch {
   PlaceEvidence evidence;
 };
 
+/// Log likelihoods of the words of a query, nats.
+struct WordLikelihoods {
+  std::vector<double> at_places;  ///< one for each place
+  double at_new = 0.0;            ///< at a new place; infinite without sampled places
+};
+
 /// Comparison of a place with a query, whether or not a search would compare it.
 struct PlaceComparison {
   PlaceMatch match;
@@ -73,9 +79,16 @@ class PlaceMatcher {
   std::size_t size() const { return places_.size(); }
   const DescribedPlace& place(std::size_t i) const { return places_[i]; }
 
+  /// Returns the likelihoods of a query for matches(); valid until a place is added.
+  WordLikelihoods likelihoods(const DescribedPlace& query) const;
   /// Returns the compared places among those admitted by `isCandidate`, most probable first; empty if there are none.
   /// Margins of the first one exclude places elsewhere that show the same place; if all do, the margin is that to the
-  /// best agreement that would not. Those of the others do not exclude them.
+  /// best agreement that would not. Those of the others do not exclude them. `compared`:
+  /// largest number of places of which descriptors are compared; nullopt: that of the options.
+  std::vector<PlaceMatch> matches(const DescribedPlace& query, const WordLikelihoods& likelihoods,
+                                  std::optional<int> compared,
+                                  const std::function<bool(std::size_t)>& isCandidate) const;
+  /// Returns the matches with the options.
   std::vector<PlaceMatch> matches(const DescribedPlace& query,
                                   const std::function<bool(std::size_t)>& isCandidate) const;
   /// Returns the first of matches().
@@ -92,10 +105,11 @@ class PlaceMatcher {
     LookAgreement look;
   };
   bool isElsewhere(std::size_t a, std::size_t b) const;
-  std::vector<Candidate> likeliest(const std::vector<double>& likelihoods,
+  std::vector<Candidate> likeliest(const std::vector<double>& likelihoods, std::optional<int> compared,
                                    const std::function<bool(std::size_t)>& isCandidate) const;
   std::vector<Candidate> selectVaried(const std::vector<Candidate>& ranked, int most) const;
   std::vector<Candidate> comparedCandidates(const DescribedPlace& query, const std::vector<double>& likelihoods,
+                                            std::optional<int> compared,
                                             const std::function<bool(std::size_t)>& isCandidate) const;
   double logLikelihoodNew(const WordSet& query) const;
   void compareAll(const ComparedFeatures& query, std::size_t step, std::vector<Candidate>& candidates) const;

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "fabmap_node/model/place_model.hpp"
 #include "fabmap_node/recognition/location_filter.hpp"
@@ -17,21 +18,29 @@ struct RecogniserOptions {
   bool detects_stationary = true;  ///< an observation of a stationary camera replaces the previous one in the sequence
   urban_nav_core::StampNs mask = 20'000'000'000;  ///< more recent places of the same session are not candidates, ns
 };
-/// Result of place recognition for one observation.
+/// Likeliest place of one session.
+struct RecognisedPlace {
+  PlaceMatch match;
+  double probability = 0.0;  ///< that the observation shows this place
+};
+/// Result of place recognition for one observation. Places of several sessions may be one place: their probabilities
+/// do not exclude each other.
 struct PlaceRecognition {
   ObservationStatus status = ObservationStatus::Used;
   std::size_t words = 0;            ///< distinct words of the observation
   std::optional<PlaceMatch> match;  ///< nullopt if there is no earlier place
   double probability = 0.0;         ///< that `match` shows the same place
-  /// Best match in other sessions, if `match` is of the observation's own session, in which the light is the same.
-  std::optional<PlaceMatch> earlier;
-  double earlier_probability = 0.0;  ///< that `earlier` shows the same place
+  /// Likeliest place of each other session, at most PlaceRecogniser::kMostSessions, in descending order of probability.
+  /// Sessions do not compete: places of a session with the same light do not hide those of other sessions.
+  std::vector<RecognisedPlace> others;
 };
 
 /// Recognises places in the observations of consecutive sessions: each is compared with the previous places, then
 /// becomes a place itself. Calls must be in order of time. Not thread-safe.
 class PlaceRecogniser {
  public:
+  static constexpr std::size_t kMostSessions = 6;  ///< with a place in the result: those with the likeliest words
+
   /// The model must outlive this object. `read_look`: see PlaceMatcher.
   PlaceRecogniser(const PlaceModel& model, const RecogniserOptions& options, LookReader read_look = {});
   PlaceRecogniser(const PlaceRecogniser&) = delete;
@@ -48,7 +57,11 @@ class PlaceRecogniser {
   std::size_t places() const { return matcher_.size(); }
 
  private:
-  void judge(const std::vector<PlaceMatch>& matches, int cameras, PlaceRecognition& result);
+  RecognisedPlace recognise(const PlaceMatch& match, int cameras) const;
+  RecognisedPlace recogniseBySequence(const std::vector<PlaceMatch>& matches, int cameras);
+  std::vector<std::size_t> furtherSessions(const WordLikelihoods& likelihoods, urban_nav_core::StampNs newest,
+                                           const std::vector<RecognisedPlace>& found) const;
+  std::vector<RecognisedPlace> recogniseSessions(const DescribedPlace& query, int cameras);
   void followLook(const std::string& look);
 
   const PlaceModel& model_;

@@ -110,7 +110,7 @@ std::string findReason(const PlacePair& pair) {
   if (!comparison.is_compared)
     return "the place is not among the most similar ones by words, which are compared by descriptors";
   if (!comparison.is_first)
-    return "another place is more similar: only the likeliest place and the likeliest of another session are proposed";
+    return "another place is more similar: only the likeliest place of each session is proposed";
   if (pair.probability <= pair.closure_probability)
     return "the probability is not above " + urban_nav_core::formatNumber(pair.closure_probability) +
            " (fabmap_node.closure_probability)";

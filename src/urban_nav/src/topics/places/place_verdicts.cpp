@@ -10,15 +10,15 @@
 
 namespace urban_nav {
 
-using fabmap_node::VerifiedClosure;
 using fabmap_node::PlaceBelief;
 using fabmap_node::PlaceVerdict;
+using fabmap_node::VerifiedClosure;
 using urban_nav_core::ClosureVerdict;
 using urban_nav_core::MetricClosure;
 
 namespace {
 
-/// Returns the verdict on a closure; nullopt if there is none. `assessment`: null before the pose graph.
+/// Returns the verdict on a closure; nullopt without a verdict. `assessment`: null before the pose graph.
 std::optional<PlaceVerdict> verdictOn(const MetricClosure& closure, const ClosureAssessment* assessment) {
   if (!isMeasured(closure)) return std::nullopt;
   const auto measured = fabmap_node::placeVerdict(closure);
@@ -46,7 +46,8 @@ std::vector<std::vector<VerifiedClosure>> verifiedClosures(const MapContext& con
     const auto verdict = verdictOn(closure, i < context.assessments.size() ? &context.assessments[i] : nullptr);
     const std::size_t a = number(closure.a.session), b = number(closure.b.session);
     if (!verdict || a >= runs.size() || b >= runs.size()) continue;
-    verified[b].push_back({closure.a, closure.b, travelledTo(a, closure.a.stamp), travelledTo(b, closure.b.stamp), *verdict});
+    verified[b].push_back(
+        {closure.a, closure.b, travelledTo(a, closure.a.stamp), travelledTo(b, closure.b.stamp), *verdict});
   }
   return verified;
 }

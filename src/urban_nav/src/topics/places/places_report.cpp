@@ -16,7 +16,7 @@ namespace {
 
 struct KnowledgeCounts {
   std::size_t known = 0, unsure = 0, fresh = 0, stationary = 0;
-  std::size_t accepted = 0, rejected = 0;  // of these, by geometry at the likeliest place
+  std::size_t accepted = 0, rejected = 0;  // likeliest places with a geometric verdict
 };
 
 KnowledgeCounts countKnowledge(const PlacesRun& run) {
