@@ -23,8 +23,8 @@ struct ShownState {
 };
 
 /// Returns the state as JSON: `sessions` in the order of their maps, `closures`, whose ends refer to a session by its
-/// index in that list, `edits`, and the consistency `tests` of `trust`, whose intervals are s from the first pose of their
-/// session. Stamps are texts in s since 1970, as for `edge`.
+/// index in that list, `edits`, and the consistency `tests` of `trust`, whose intervals are s from the first pose of
+/// their session. Stamps are texts in s since 1970, as for `edge`.
 Json stateAsJson(const ShownState& state);
 
 /// Appends a number as float32 in little endian.
