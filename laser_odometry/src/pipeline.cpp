@@ -28,7 +28,28 @@ constexpr double kStartSpeed = 40.0;     // m/s, maximum speed of the search
 constexpr double kStartSteps = 12.0;     // maximum number, forward and backward
 constexpr double kUnknownStart = 0.4;    // m, errors at the surfaces with unknown velocity,
 constexpr double kPredictedStart = 0.1;  // and after a prediction
+constexpr double kBlurred = 0.25;        // m between sweeps, error of the speed by which surfaces blur: half a cube
 constexpr double kStartGain = 1.005;     // required gain of the fit over a standing start
+
+/// Returns a covariance of a step in the axes of odom: d_odom = J2^-1 d_step.
+Matrix6d inOdom(const Matrix6d& covariance, const Pose& T_odom_base) {
+  const Matrix3d R = T_odom_base.R();
+  Matrix6d to_odom = Matrix6d::Zero();
+  to_odom.topLeftCorner<3, 3>() = to_odom.bottomRightCorner<3, 3>() = R;
+  return to_odom * covariance * to_odom.transpose();
+}
+
+/// Returns the free directions as twists in base_link.
+std::vector<Vector6d> freeTwists(const FreeSubspace& free, const Matrix3d& R_base_odom) {
+  std::vector<Vector6d> twists;
+  for (const Vector6d& direction : free.directions) {
+    const Vector6d d = free.unscaled(direction);
+    Vector6d turned;
+    turned << R_base_odom * d.head<3>(), R_base_odom * d.tail<3>();
+    twists.push_back(turned);
+  }
+  return twists;
+}
 
 }  // namespace
 
@@ -131,11 +152,12 @@ Pipeline::Prediction Pipeline::predict(const Sweep& sweep, const std::optional<M
   prediction.seconds = urban_nav_core::secondsBetween(stamp_, sweep.reference);
   if (prior && prior->step.T_from_to.isFinite() && prior->step.covariance.allFinite()) {
     prediction.T_last_now = prior->step.T_from_to;
-    prediction.covariance = prior->step.covariance;
+    prediction.covariance = prediction.of_step = prior->step.covariance;
     prediction.is_measured = true;
   } else {
     prediction.T_last_now = motion_.predict(prediction.seconds);
     prediction.covariance = motion_.predictionCovariance(prediction.seconds);
+    prediction.of_step = motion_.stepCovariance(prediction.seconds);
   }
   if (space_ == MotionSpace::Planar) {
     prediction.T_last_now = toPlanar(prediction.T_last_now);
@@ -276,15 +298,16 @@ void Pipeline::accept(const Aligned& aligned, const SweepPoints& points, const P
 
   const urban_nav_core::Between step = urban_nav_core::between(T_odom_last, T_odom_base_);
   result.step.T_from_to = step.T_b_c;
-  // Prior covariance in odom: d_odom = J2^-1 d_step.
-  const Matrix3d R = T_odom_last.R();
-  Matrix6d to_odom = Matrix6d::Zero();
-  to_odom.topLeftCorner<3, 3>() = R;
-  to_odom.bottomRightCorner<3, 3>() = R;
-  const Matrix6d prior = to_odom * prediction.covariance * to_odom.transpose();
   const bool is_planar = space_ == MotionSpace::Planar;
   const Matrix6d unit = covarianceOfObserved(registration.information, registration.free, Matrix6d::Zero());
-  const Matrix6d along_free = covarianceOfObserved(registration.information, registration.free, prior) - unit;
+  const auto alongFree = [&](const FreeSubspace& free, const Matrix6d& covariance) -> Matrix6d {
+    const Matrix6d prior = inOdom(covariance, T_odom_last);
+    return covarianceOfObserved(registration.information, free, prior) -
+           covarianceOfObserved(registration.information, free, Matrix6d::Zero());
+  };
+  const FreeSubspace of_gap = gap_.average(registration.free);
+  const Matrix6d along_free =
+      alongFree(registration.free, prediction.of_step) + alongFree(of_gap, prediction.covariance - prediction.of_step);
   const Matrix6d floor = ErrorModel::endFloor();
   Matrix6d end = errors_.passing() * unit + floor + skewCovariance(sweep);
   const double age = errors_.age();
@@ -297,7 +320,8 @@ void Pipeline::accept(const Aligned& aligned, const SweepPoints& points, const P
   }
   result.step.drift_covariance = urban_nav_core::transformCovariance(step.J2, drift);
   result.step.covariance = urban_nav_core::transformCovariance(step.J1, end_covariance_) +
-                           urban_nav_core::transformCovariance(step.J2, end + drift);
+                           urban_nav_core::transformCovariance(step.J2, end + drift + gap_.close(registration));
+  gap_.extend(along_free, static_cast<std::int32_t>(registration.free.directions.size()), sweep_);
   end_covariance_ = end;
   Vector6d per_scale = Vector6d::Zero();
   per_scale.head<3>() = step.T_b_c.t();
@@ -309,13 +333,17 @@ void Pipeline::accept(const Aligned& aligned, const SweepPoints& points, const P
     turned << R_base_odom * direction.head<3>(), R_base_odom * direction.tail<3>();
     result.free_directions.push_back(turned.normalized());
   }
-  motion_.update(step.T_b_c, prediction.seconds, prediction.is_measured || !registration.free.isFree());
+  StepEvidence evidence{result.step.covariance, {}};
+  if (!prediction.is_measured) evidence.free = freeTwists(registration.free, R_base_odom);
+  motion_.update(step.T_b_c, prediction.seconds, evidence);
   lost_ = 0;
   grow(aligned, points);
 }
 
 void Pipeline::grow(const Aligned& aligned, const SweepPoints& points) {
-  if (!motion_.isKnown()) {  // sweeps with free directions would blur each other
+  const bool is_blurred =
+      aligned.registration.free.leavesPositionFree() && motion_.stepCovariance(usual_s_)(0, 0) > kBlurred * kBlurred;
+  if (!motion_.isKnown() || is_blurred) {  // sweeps with free directions would blur each other
     beginMap(points, knownMotion());
     return;
   }
@@ -332,9 +360,13 @@ void Pipeline::continueByPrediction(const Prediction& prediction, LaserPose& res
   result.step.covariance = started_ ? prediction.covariance : Matrix6d(kFirstCovariance * Matrix6d::Identity());
   if (started_ && space_ == MotionSpace::Planar) result.step.covariance += 2.0 * floorOfPose(parameters_);  // both ends
   result.step.drift_covariance = started_ ? prediction.covariance : Matrix6d(Matrix6d::Zero());
-  T_odom_base_ = T_odom_base_ * prediction.T_last_now;
-  if (started_) motion_.update(prediction.T_last_now, prediction.seconds, prediction.is_measured);
   const FreeSubspace all = findFreeSubspace({}, space_);
+  if (started_)
+    gap_.extend(inOdom(prediction.covariance, T_odom_base_), static_cast<std::int32_t>(all.directions.size()), sweep_);
+  T_odom_base_ = T_odom_base_ * prediction.T_last_now;
+  if (started_)
+    motion_.update(prediction.T_last_now, prediction.seconds,
+                   {prediction.covariance, prediction.is_measured ? std::vector<Vector6d>() : all.directions});
   if (started_) result.free_directions = all.directions;
 }
 

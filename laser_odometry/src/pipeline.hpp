@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "error_model.hpp"
+#include "gap_error.hpp"
 #include "laser_odometry/laser_odometry.hpp"
 #include "motion.hpp"
 #include "planar_floor.hpp"
@@ -35,6 +36,7 @@ class Pipeline {
     double seconds = 0.0;
     Pose T_last_now;
     Matrix6d covariance = Matrix6d::Identity();
+    Matrix6d of_step = Matrix6d::Identity();  ///< part that does not depend on other predictions of a gap
     bool is_measured = false;  ///< by another sensor
   };
   /// A registered sweep with the deskewed segments of its last round, in base_link.
@@ -81,6 +83,7 @@ class Pipeline {
   SurfaceMap map_;
   MotionModel motion_;
   ErrorModel errors_;
+  GapError gap_;
   std::int32_t sweep_ = 0;  ///< number of the next sweep
   bool started_ = false;
   urban_nav_core::StampNs stamp_ = 0;

@@ -13,7 +13,7 @@ using urban_nav_core::Health;
 namespace {
 
 constexpr const char* kStateName = "laser_odometry";
-constexpr std::uint32_t kStateVersion = 2;
+constexpr std::uint32_t kStateVersion = 3;
 // Limits of a vehicle that drives over a kerb: a registration beyond them is rejected.
 constexpr double kLargestAcceleration = 50.0;  // m/s^2
 constexpr double kLargestTurn = 15.0;          // rad/s^2
@@ -59,7 +59,7 @@ bool Pipeline::isPlausible(const Registration& registration, const Prediction& p
   // A measured prior may be more accurate than its covariance; at the start the motion is unknown.
   if (prediction.is_measured || !motion_.isKnown() || first_.used > 0) return true;
   const Vector6d d = urban_nav_core::boxMinus(T_odom_base_.inverse() * registration.T_odom_base, prediction.T_last_now);
-  const double span = prediction.seconds * (prediction.seconds + usual_s_ * lost_);
+  const double span = prediction.seconds * (prediction.seconds + usual_s_ * lost_ + motion_.unobservedSeconds());
   return d.head<3>().norm() <= kLargestAcceleration * span && d.tail<3>().norm() <= kLargestTurn * span;
 }
 
@@ -92,7 +92,7 @@ std::string Pipeline::fingerprint() const {
 }
 
 void Pipeline::archive(urban_nav_core::Archive& archive) {
-  archive(map_, motion_, errors_, sweep_, started_, stamp_, T_odom_base_, end_covariance_, has_step_, drift_,
+  archive(map_, motion_, errors_, gap_, sweep_, started_, stamp_, T_odom_base_, end_covariance_, has_step_, drift_,
           covariance_, usual_s_, lost_, pruned_at_, first_);
   archive.require(sweep_ >= 0 && lost_ >= 0 && usual_s_ >= 0.0, "negative number");
 }
