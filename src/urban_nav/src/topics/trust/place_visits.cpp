@@ -23,11 +23,11 @@ using urban_nav_trust::PlaceVisits;
 
 namespace {
 
-constexpr double kVisitHalfLength = 6.0;         // m of path, of a local cloud
-constexpr double kVisitNear = 3.0;               // m
-constexpr double kVisitPath = 40.0;              // m between the visits, as between passes of laser_mapper
-constexpr StampNs kVisitApart = 20'000'000'000;  // as laser_mapper.ghost_gap
-constexpr double kVisitStep = 0.5;               // m between poses of the path that are compared
+constexpr double kVisitHalfLength = 6.0;               // m of path, of a local cloud
+constexpr double kVisitNear = 3.0;                     // m
+constexpr double kVisitPath = 4.0 * kVisitHalfLength;  // m between the visits: their clouds share no scans
+constexpr StampNs kVisitApart = 20'000'000'000;        // as laser_mapper.ghost_gap
+constexpr double kVisitStep = 0.5;                     // m between poses of the path that are compared
 constexpr std::size_t kMostVisits = 12;
 constexpr float kVisitVoxel = 0.25F;                    // m
 constexpr float kFreeCube = 2.0F * kVisitVoxel;         // m, as in ICP of local clouds

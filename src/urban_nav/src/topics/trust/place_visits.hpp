@@ -13,7 +13,7 @@ namespace urban_nav {
 struct VisitPair {
   urban_nav_core::StampNs earlier = 0, later = 0;
 };
-/// Returns pairs of poses within 3 m of each other, more than 20 s and 40 m of path apart. The later poses are at least
+/// Returns pairs of poses within 3 m of each other, more than 20 s and 24 m of path apart. The later poses are at least
 /// a length of two local clouds apart, so that no two pairs share walls of the later visit. At most 12, evenly spread.
 std::vector<VisitPair> findVisits(const urban_nav_core::Trajectory& T_map_base);
 
