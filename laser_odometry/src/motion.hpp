@@ -13,7 +13,7 @@ using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_core::Vector6d;
 
-/// How well a step of base_link was measured.
+/// Accuracy of a measured step of base_link.
 struct StepEvidence {
   Matrix6d covariance = Matrix6d::Zero();  ///< tangent as in PoseWithCovariance
   std::vector<Vector6d> free;              ///< directions of the tangent that its end does not measure

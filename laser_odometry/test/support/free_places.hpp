@@ -151,7 +151,7 @@ inline std::vector<FreePlace> makeFreePlaces() {
 }
 
 /// Returns the motion of a drive: T_world_base(t).
-inline std::function<Pose(double)> motionOf(const FreePlace& place, std::uint64_t seed) {
+inline std::function<Pose(double)> makeMotion(const FreePlace& place, std::uint64_t seed) {
   const double w = 2.0 * M_PI / place.period, phase = 1.9 * static_cast<double>(seed);
   const double height = place.scanner == Scanner::Planar ? 0.0 : 1.7;
   return [=](double t) {
@@ -169,7 +169,7 @@ inline FreeRun driveFreePlace(const FreePlace& place, Parameters parameters, std
   parameters.max_range = place.max_range;
   LaserOdometry odometry(parameters, place.laser.T_base_lidar, place.scanner);
   const BoxWorld world = place.world(seed);
-  const std::function<Pose(double)> motion = motionOf(place, seed);
+  const std::function<Pose(double)> motion = makeMotion(place, seed);
   FreeRun run;
   run.is_planar = place.scanner == Scanner::Planar;
   for (int i = 0; i < place.sweeps; ++i) {
