@@ -240,7 +240,8 @@ std::vector<Verdict> graphVerdicts(const GraphRun& graph) {
     made.push_back({Grade::Fair,
                     "Odometry errors are " + urban_nav_core::formatNumber(deviation_ratio, 2) +
                         " times their standard deviations,",
-                    "as estimated from the closures; the covariances of this map are scaled accordingly."});
+                    std::string("as estimated from the ") + (closures.accepted > 0 ? "closures" : "planes") +
+                        "; the covariances of this map are scaled accordingly."});
   made.push_back(levelVerdict(graph.levels.front()));
   if (const double lean = kGraphDegrees * graph.graph.odometryLean(); lean > 0.0)
     made.push_back({Grade::Good, "Roll and pitch are corrected by the accelerometer.",
