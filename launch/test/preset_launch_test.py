@@ -56,6 +56,13 @@ class PresetLaunch(unittest.TestCase):
                 ends = [end.rstrip("*") for end in roles[ROLES[argument]]]
                 self.assertTrue(any(topic.endswith("/" + end) for end in ends), f"{name}: {topic} is not one of {ends}")
 
+    def test_an_odometry_that_does_not_exist_live_is_named_with_those_that_do(self):
+        for file, arguments in (("robot.launch", {}), ("bag.launch", {"bag": "/none.bag"}), ("localization.launch", {"store": "/none.db"})):
+            for odometry in ("stereo", "laser"):
+                load(file, odometry=odometry, **arguments)
+            with self.assertRaisesRegex(Exception, "odometry: expected stereo or laser, found both"):
+                load(file, odometry="both", **arguments)
+
     def test_a_stereo_camera_is_read_by_the_odometry(self):
         nodes, _ = load("swf_vo.launch", preset="realsense")
         self.assertEqual(nodes["swf_vo"]["stereo/left/image_raw"], "/camera/infra1/image_rect_raw")
