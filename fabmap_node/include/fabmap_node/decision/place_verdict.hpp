@@ -26,7 +26,7 @@ std::optional<PlaceVerdict> placeVerdict(const urban_nav_core::MetricClosure& cl
 /// Returns the log likelihood ratio of a verdict: log P(verdict | one place) / P(verdict | two places), nats. Rates are
 /// from counted cases, with one added to the counts of both outcomes (Laplace), so that an outcome that was never seen
 /// has a probability. Verdicts of loop_metric and of the pose graph are taken as independent given the places; those of
-/// the pose graph include the former (docs/methods/fabmap_node.md#verdicts).
+/// the pose graph include the former (docs/methods/fabmap_node.md, "Verdicts").
 double logRatio(PlaceVerdict verdict);
 
 }  // namespace fabmap_node
