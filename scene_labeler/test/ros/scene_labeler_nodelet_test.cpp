@@ -11,12 +11,14 @@
 #include <urban_nav_msgs/CorrectLabel.h>
 #include <urban_nav_msgs/FileCommand.h>
 #include <urban_nav_msgs/RelativePose.h>
+#include <unistd.h>
 #include <urban_nav_msgs/StageStatus.h>
 
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <opencv2/core.hpp>
+#include <string>
 
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/image.hpp"
@@ -182,7 +184,7 @@ TEST(SceneLabelerNodelet, LabelsReturnsVisibleInTheCameraOfTheirSide) {
   EXPECT_TRUE(StreetRobot::until([] { return StreetRobot::correct("dirt_path").success; }));
   EXPECT_TRUE(StreetRobot::until([&] { return robot.diagnosed("corrections", "1"); }));
   urban_nav_msgs::FileCommand save;
-  save.request.path = "/tmp/scene_labeler_nodelet_test.labels";
+  save.request.path = "/tmp/scene_labeler_nodelet_test_" + std::to_string(::getpid()) + ".labels";
   ASSERT_TRUE(ros::service::call("scene_labeler/save", save));
   EXPECT_TRUE(save.response.success) << save.response.message;
   EXPECT_EQ(std::remove(save.request.path.c_str()), 0);

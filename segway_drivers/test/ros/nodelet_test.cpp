@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "segway_drivers/lms291/telegram.hpp"
@@ -37,6 +38,13 @@ Bytes makeTelegram(int number) {
   telegram.insert(telegram.end(), payload.begin(), payload.end());
   appendLittle(telegram, computeLmsCrc(telegram));
   return telegram;
+}
+
+/// Returns the port of a driver, which its test simulates.
+std::string readPort(const std::string& node) {
+  std::string port;
+  EXPECT_TRUE(ros::param::get(node + "/port", port)) << node;
+  return port;
 }
 
 /// Calls `step` every 2 ms for so long, or until it returns true.
@@ -73,7 +81,7 @@ TEST(DriverNodelets, ALaserIsPublishedAndItsUnplugIsReported) {
   int number = 0;
   double due = 0.0;
   {
-    Terminal terminal("/tmp/segway_drivers_rostest/laser");
+    Terminal terminal(readPort("/laser_left/laser"));
     const auto stream = [&](double t) {
       for (; due <= t; due += kMirrorPeriod) terminal.write(makeTelegram(number++));
       return scans.size() > 200 && anyDiagnostics("laser", "streaming");
@@ -94,7 +102,7 @@ TEST(DriverNodelets, ALaserIsPublishedAndItsUnplugIsReported) {
 
 TEST(DriverNodelets, TheBaseStopsHalfASecondAfterTheLastCommand) {
   ros::NodeHandle nh;
-  Terminal terminal("/tmp/segway_drivers_rostest/base");
+  Terminal terminal(readPort("/base"));
   const urban_nav_ros::testing::Receipts receipts("base");
   ros::Publisher command = nh.advertise<geometry_msgs::Twist>("cmd_vel", 1);
   int odometry = 0, cycle = 0, moving = 0;

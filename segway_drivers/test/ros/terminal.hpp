@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <system_error>
 
 #include "segway_drivers/stream/bytes.hpp"
 
@@ -32,6 +33,8 @@ class Terminal {
   }
   ~Terminal() {
     std::filesystem::remove(link_);
+    std::error_code not_empty;
+    std::filesystem::remove(link_.parent_path(), not_empty);
     ::close(slave_);
     ::close(master_);
   }
