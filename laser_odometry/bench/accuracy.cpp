@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "../test/support/velodyne_folder.hpp"
+#include "arguments.hpp"
 #include "laser_odometry/laser_odometry.hpp"
 #include "urban_nav_core/parameters/sources.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
@@ -64,12 +65,7 @@ void addRow(const std::string& name, const laser_odometry::VelodyneFolder& drive
 }  // namespace
 
 int main(int argc, char** argv) try {
-  std::vector<urban_nav_core::Assignment> settings;
-  std::string output;
-  for (int i = 3; i < argc; ++i) {
-    if (std::string(argv[i]) == "-o" && i + 1 < argc) output = argv[++i];
-    else settings.push_back(urban_nav_core::parseSetting("laser_odometry." + std::string(argv[i])));
-  }
+  auto [parameters, output] = laser_odometry::bench::readArguments(argc, argv, 3);
   if (argc < 3) {
     std::fputs("usage: laser_odometry-bench-accuracy FOLDER SWEEPS [KEY=VALUE...] [-o FILE.json]\n", stderr);
     return 2;
@@ -77,7 +73,6 @@ int main(int argc, char** argv) try {
   const laser_odometry::VelodyneFolder drive(argv[1], argv[2]);
   urban_nav_core::testing::BenchTable table(
       {"sweeps", "10 frames, %", "50 frames, %", "length, %", "NEES", "median, ms", "most, ms", "not OK"}, argc, argv);
-  laser_odometry::Parameters parameters = load(laser_odometry::table(), settings).parameters;
   addRow("deskewed", drive, parameters, table);
   parameters.deskew = false;
   addRow("not deskewed", drive, parameters, table);

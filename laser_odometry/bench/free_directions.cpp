@@ -5,20 +5,14 @@
 #include <cstdio>
 
 #include "../test/support/free_places.hpp"
-#include "urban_nav_core/parameters/sources.hpp"
+#include "arguments.hpp"
 #include "urban_nav_core/testing/bench_table.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 using urban_nav_core::testing::cell;
 
 int main(int argc, char** argv) try {
-  std::vector<urban_nav_core::Assignment> settings;
-  std::string output;
-  for (int i = 1; i < argc; ++i) {
-    if (std::string(argv[i]) == "-o" && i + 1 < argc) output = argv[++i];
-    else settings.push_back(urban_nav_core::parseSetting("laser_odometry." + std::string(argv[i])));
-  }
-  const laser_odometry::Parameters parameters = load(laser_odometry::table(), settings).parameters;
+  const auto [parameters, output] = laser_odometry::bench::readArguments(argc, argv, 1);
   urban_nav_core::testing::BenchTable table({"place", "seed", "sweeps", "free", "length, m", "error at the end, m",
                                              "stated, m", "NEES 1", "NEES 10", "NEES 50"},
                                             argc, argv);

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "../test/support/floor_plans.hpp"
+#include "arguments.hpp"
 #include "laser_odometry/laser_odometry.hpp"
 #include "urban_nav_core/geometry/small_matrices.hpp"
 #include "urban_nav_core/parameters/sources.hpp"
@@ -86,13 +87,7 @@ double errorInMillimetres(const Run& run, std::size_t scans) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  std::vector<urban_nav_core::Assignment> settings;
-  std::string output;
-  for (int i = 1; i < argc; ++i) {
-    if (std::string(argv[i]) == "-o" && i + 1 < argc) output = argv[++i];
-    else settings.push_back(urban_nav_core::parseSetting("laser_odometry." + std::string(argv[i])));
-  }
-  const laser_odometry::Parameters parameters = load(laser_odometry::table(), settings).parameters;
+  const auto [parameters, output] = laser_odometry::bench::readArguments(argc, argv, 1);
   using laser_odometry::makePlanarLaser;
   std::vector<Drive> drives;
   drives.push_back({"office", {}, makePlanarLaser(), laser_odometry::makeFigureEight(5.0, 2.0, 30.0)});
