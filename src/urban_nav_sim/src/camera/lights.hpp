@@ -45,7 +45,7 @@ class Lights {
   Eigen::Vector2f origin_ = Eigen::Vector2f::Zero();  ///< m, lower corner of the cells
   int columns_ = 0, rows_ = 0;
   std::vector<std::vector<std::uint32_t>> cells_;             ///< lamps that reach a cell, row by row
-  std::unordered_map<std::uint64_t, Eigen::Vector3f> rooms_;  ///< radiance by keyOf() the corner of a lit window
+  std::unordered_map<std::uint64_t, Eigen::Vector3f> rooms_;  ///< radiance by toKey() the corner of a lit window
 };
 
 }  // namespace urban_nav_sim

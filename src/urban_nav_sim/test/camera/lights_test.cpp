@@ -72,7 +72,7 @@ TEST(Lights, ALampLightsTheGroundByTheInverseSquare) {
   EXPECT_NEAR(picture.at(4.0, 0.0).y() / below.y(), std::sqrt(0.5F) / 2.0F, 0.03F);
 }
 
-TEST(Lights, WhatStandsBeforeALampCastsAShadow) {
+TEST(Lights, AnObstacleBeforeALampCastsAShadow) {
   World world = litGround(Light::Night);
   world.parts.push_back(quad(kWall, {1, -2, 0.5F}, {0, 4, 0}, {0, 0, 1.5F}));  // from 0.5 to 2 m above the ground
   const GroundPicture picture(world);
