@@ -66,6 +66,12 @@ void LivePlaceStore::put(const Session& session, StoredPlace place) {
   waiting_.emplace_back([row = std::move(place)](Store& store) { TableStore<StoredPlace>(store).put(row); });
 }
 
+void LivePlaceStore::put(urban_nav_store::PlaceLink link) {
+  if (!is_wanted_ || !has(link.session) || !has(link.earlier)) return;
+  waiting_.emplace_back(
+      [row = std::move(link)](Store& store) { TableStore<urban_nav_store::PlaceLink>(store).put(row); });
+}
+
 void LivePlaceStore::end(const Session& session) {
   if (begun_.erase(session.id) == 0) return;
   waiting_.emplace_back([ended = session](Store& store) {

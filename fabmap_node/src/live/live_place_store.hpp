@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "urban_nav_live/store_writer_link.hpp"
+#include "urban_nav_store/tables/place_link.hpp"
 #include "urban_nav_store/tables/stored_place.hpp"
 
 namespace fabmap_node {
@@ -35,6 +36,8 @@ class LivePlaceStore {
   void sync(const Reader& read);
   /// Writes a place, preceded by the session and its model for the first place of a session.
   void put(const urban_nav_store::Session& session, urban_nav_store::StoredPlace place);
+  /// Writes a link between places of sessions that the store has or will have; others are ignored.
+  void put(urban_nav_store::PlaceLink link);
   /// Marks a session complete, if it has places here.
   void end(const urban_nav_store::Session& session);
   /// Blocks until everything is committed. Throws UserError with the fault of the store if that is impossible.

@@ -70,7 +70,7 @@ void LivePlaces::follow(const urban_nav_core::OdometrySessionPtr& announced) {
   }
   if (announced_ || session_) {  // of another session, which ended without a backward jump
     endSession();
-    map_->beginSession("");
+    beginMapSession();
     odometry_.restart();
   }
   announced_ = announced;
@@ -80,7 +80,7 @@ void LivePlaces::follow(const urban_nav_core::OdometrySessionPtr& announced) {
 PlaceOutput LivePlaces::process(urban_nav_core::StampNs stamp, const std::vector<urban_nav_core::ImageView>& images) {
   if (time_.add(stamp)) {
     endSession();
-    map_->beginSession("");
+    beginMapSession();
     beginNextSession();
   }
   if (!first_observed_) first_observed_ = stamp;
@@ -117,10 +117,10 @@ std::vector<PlaceBelief> LivePlaces::addVerdict(const urban_nav_core::MetricClos
   for (urban_nav_core::PoseRef* at : {&a, &b})
     if (at->session == sessionId(announced_) || (session_ && at->session == session_->id)) at->session.clear();
   if (!verdict || !b.session.empty() || !first_observed_) return {};
-  const std::optional<double> travelled_a =
-      a.session.empty() ? std::optional<double>(odometry_.travelled(a.stamp)) : map_->travelled(a);
+  const std::optional<double> travelled_a = travelled(a);
   if (!travelled_a) return {};
   ++counts_.verdicts;
+  learn(closure, *verdict, a, b);
   std::vector<PlaceBelief> changed = history_.addVerdict({a, b, *travelled_a, odometry_.travelled(b.stamp), *verdict});
   if (!changed.empty() && changed.back().at.stamp == last_.at.stamp) last_ = changed.back();
   return changed;
@@ -150,6 +150,8 @@ void LivePlaces::beginSession(const Session& session) {
     if (each.session.id != session_->id) others.push_back(each);
   if (others.size() < earlier_.size()) useMap(buildMap(others));  // being recorded again, and so are its places
   for (urban_nav_store::StoredPlace& place : std::exchange(unnamed_, {})) keep(std::move(place));
+  for (const urban_nav_store::PlaceLink& link : links_)
+    if (link.session.empty()) keep(link);
 }
 
 void LivePlaces::endSession() {
@@ -160,6 +162,9 @@ void LivePlaces::endSession() {
     map_->renameSession(session_->id);
     earlier_.push_back({*session_, recorded_});
     recorded_ = std::make_shared<RecordedPlaces>();
+    for (urban_nav_store::PlaceLink& link : links_)
+      for (std::string* session : {&link.session, &link.earlier})
+        if (session->empty()) *session = session_->id;
   }
   session_.reset();
   first_observed_.reset();
@@ -191,6 +196,7 @@ void LivePlaces::reset() {
     for (const Session& session : resumable_) namer_.reserve(session.id);  // already in the store
   else namer_.clear();
   earlier_.clear();
+  links_.clear();
   recorded_ = std::make_shared<RecordedPlaces>();
   useMap(buildMap({}));
   resumable_.clear();
@@ -229,6 +235,7 @@ urban_nav_live::StageReport LivePlaces::report() const {
   report.add("known", counts_.known);
   report.add("closures proposed", counts_.closures);
   report.add("verdicts on closures", counts_.verdicts);
+  report.add("places forgotten", map_->forgotten());
   addStoreFigures(store_.state(), report);
   return report;
 }

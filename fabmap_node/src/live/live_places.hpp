@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "urban_nav_live/stage_report.hpp"
 #include "urban_nav_live/store_writer_link.hpp"
 #include "urban_nav_live/time_jump.hpp"
+#include "urban_nav_store/tables/place_link.hpp"
 
 namespace fabmap_node {
 
@@ -51,6 +53,7 @@ class LivePlaces {
   PlaceOutput process(urban_nav_core::StampNs stamp, const std::vector<urban_nav_core::ImageView>& images);
   /// Adds a closure with the verdict of loop_metric or pose_graph. Returns the beliefs that it changes, as
   /// BeliefHistory::addVerdict(); empty unless `b` is of the session of the observations and `a` of one in the map.
+  /// With an accepted closure, the places at `a` learn the appearance at `b` (FabMap::confirm()); the store keeps it.
   std::vector<PlaceBelief> addVerdict(const urban_nav_core::MetricClosure& closure);
   /// Opens the store when an attempt is due, and passes places to it. Call about ten times a second.
   void syncStore();
@@ -94,9 +97,20 @@ class LivePlaces {
   /// Names the session, if it has places, and marks it complete.
   void endSession();
   void keep(urban_nav_store::StoredPlace place);
+  /// Learns from a verdict on a closure between poses with sessions as named in the map.
+  void learn(const urban_nav_core::MetricClosure& closure, PlaceVerdict verdict, const urban_nav_core::PoseRef& a,
+             const urban_nav_core::PoseRef& b);
+  void apply(const urban_nav_store::PlaceLink& link);
+  void keep(urban_nav_store::PlaceLink link);
+  /// Returns the distance travelled up to a pose; nullopt if it is not in the map.
+  std::optional<double> travelled(const urban_nav_core::PoseRef& at) const;
+  /// Begins a session in the map. Forgotten places leave it.
+  void beginMapSession();
+  /// Replaces the map by one without forgotten places and with a session of its own for the recorded ones.
+  void compact();
   std::unique_ptr<FabMap> emptyMap();
   /// Returns a map of the earlier sessions that have places, and of the recorded places.
-  BuiltMap buildMap(const std::vector<ArchivedSession>& earlier);
+  BuiltMap buildMap(const std::vector<ArchivedSession>& earlier, const std::set<urban_nav_core::PoseRef>& without = {});
   void useMap(BuiltMap built);
   /// Reads the descriptors of a place of the map; if that fails they are empty, and the fault is reported.
   std::string readLook(std::size_t session, urban_nav_core::StampNs stamp);
@@ -116,6 +130,7 @@ class LivePlaces {
   std::unique_ptr<FabMap> map_;
   urban_nav_live::SessionNamer namer_;
   std::vector<ArchivedSession> earlier_;             // before the one being recorded, as in the map
+  std::vector<urban_nav_store::PlaceLink> links_;    // of the map, sessions named as there, in order of arrival
   std::vector<urban_nav_store::Session> resumable_;  // sessions of the store when it was opened
   // Session being recorded.
   std::optional<urban_nav_store::Session> session_;  // nullopt: not yet named

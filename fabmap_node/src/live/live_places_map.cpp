@@ -7,6 +7,8 @@
 
 namespace fabmap_node {
 
+using urban_nav_store::PlaceLink;
+
 std::string LivePlaces::readLook(std::size_t session, urban_nav_core::StampNs stamp) {
   const PlaceArchive& archive = session < earlier_.size() ? *earlier_[session].places : *recorded_;
   try {
@@ -25,7 +27,8 @@ std::unique_ptr<FabMap> LivePlaces::emptyMap() {
   });
 }
 
-LivePlaces::BuiltMap LivePlaces::buildMap(const std::vector<ArchivedSession>& earlier) {
+LivePlaces::BuiltMap LivePlaces::buildMap(const std::vector<ArchivedSession>& earlier,
+                                          const std::set<urban_nav_core::PoseRef>& without) {
   BuiltMap built{emptyMap(), {}, 0};
   const auto add = [&built](const MapPlace& place) {
     built.map->addPlace(place.stamp, place.description, place.travelled);
@@ -35,7 +38,7 @@ LivePlaces::BuiltMap LivePlaces::buildMap(const std::vector<ArchivedSession>& ea
     built.other_model += each.places->forEach([&](const MapPlace& place) {
       if (!has_places) built.map->beginSession(each.session.id);
       has_places = true;
-      add(place);
+      if (without.count({each.session.id, place.stamp}) == 0) add(place);
     });
     if (has_places) built.earlier.push_back(each);
   }
@@ -47,6 +50,7 @@ LivePlaces::BuiltMap LivePlaces::buildMap(const std::vector<ArchivedSession>& ea
 void LivePlaces::useMap(BuiltMap built) {
   map_ = std::move(built.map);
   earlier_ = std::move(built.earlier);
+  for (const PlaceLink& link : links_) apply(link);
 }
 
 LivePlaces::Added LivePlaces::addSessions(const std::string& path) {
@@ -70,7 +74,10 @@ LivePlaces::Added LivePlaces::addSessions(const std::string& path) {
   if (added.places == 0) return added;
   for (const ArchivedSession& each : built.earlier)
     if (known.count(each.session.id) == 0) added.sessions.push_back(each.session);
+  for (PlaceLink& link : storedLinks(path))
+    if (known.count(link.session) == 0) links_.push_back(std::move(link));
   useMap(std::move(built));
+  if (map_->forgotten() > 0) compact();
   return added;
 }
 

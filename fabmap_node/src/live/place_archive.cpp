@@ -95,6 +95,15 @@ std::vector<ArchivedSession> archivedSessions(const std::string& path, const std
   return sessions;
 }
 
+std::vector<urban_nav_store::PlaceLink> storedLinks(const std::string& path) {
+  Store store(path, Access::Read);
+  std::vector<urban_nav_store::PlaceLink> links;
+  for (const Session& session : store.sessions().all())
+    TableStore<urban_nav_store::PlaceLink>(store).forEach(
+        session.id, [&](const urban_nav_store::PlaceLink& link) { links.push_back(link); });
+  return links;
+}
+
 RecordedPlaces::RecordedPlaces() : file_(openTemporaryFile()) {}
 
 RecordedPlaces::~RecordedPlaces() {

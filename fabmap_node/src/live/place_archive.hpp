@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fabmap_node/store/place_sessions.hpp"
+#include "urban_nav_store/tables/place_link.hpp"
 
 namespace fabmap_node {
 
@@ -34,6 +35,10 @@ struct ArchivedSession {
 /// hash. Throws UserError or DataError if it cannot be read.
 std::vector<ArchivedSession> archivedSessions(const std::string& path, const std::string& model_hash,
                                               std::size_t vocabulary_size);
+
+/// Returns the links between places of a store, in the order of the sessions and stamps of their later poses; none in a
+/// store of an earlier version. Throws UserError or DataError if it cannot be read.
+std::vector<urban_nav_store::PlaceLink> storedLinks(const std::string& path);
 
 /// Places of the session being recorded, in an unnamed temporary file. Data that cannot be written, as on a full disk,
 /// are kept in memory.

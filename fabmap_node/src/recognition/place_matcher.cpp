@@ -12,6 +12,9 @@
 #include "urban_nav_core/types/stamp.hpp"
 
 namespace fabmap_node {
+
+using urban_nav_core::StampNs;
+
 namespace {
 
 /// A candidate elsewhere shows the same place, in another session or on another lap, if its agreement with both the
@@ -55,8 +58,60 @@ ComparedFeatures PlaceMatcher::look(std::size_t place) const {
   return unpackPlaceLook(packedLook(place), places_[place]);
 }
 
+bool PlaceMatcher::isNear(std::size_t a, std::size_t b) const {
+  return places_[a].session == places_[b].session &&
+         std::abs(places_[a].stamp - places_[b].stamp) <= options_.elsewhere;
+}
+
+/// Appearances of a place are also near places of the other sessions in which it was confirmed.
 bool PlaceMatcher::isElsewhere(std::size_t a, std::size_t b) const {
-  return places_[a].session != places_[b].session || std::abs(places_[a].stamp - places_[b].stamp) > options_.elsewhere;
+  const auto hasNear = [&](std::size_t one, std::size_t other) {
+    const std::vector<std::size_t>& shown = groups_.appearances(one);
+    return std::any_of(shown.begin(), shown.end(), [&](std::size_t each) { return isNear(each, other); });
+  };
+  return !isNear(a, b) && !hasNear(a, b) && !hasNear(b, a);
+}
+
+double PlaceMatcher::agreement(std::size_t a, std::size_t b) const { return secondLook(look(a), look(b)).share; }
+
+void PlaceMatcher::confirm(const ConfirmedPair& pair) {
+  groups_.confirm(pair, [this](std::size_t a, std::size_t b) { return agreement(a, b); });
+}
+
+void PlaceMatcher::withdraw(std::size_t a, std::size_t b) {
+  groups_.withdraw(a, b, [this](std::size_t one, std::size_t other) { return agreement(one, other); });
+}
+
+/// Returns the appearances of a place that may be compared with a query: at least the place.
+std::vector<std::size_t> PlaceMatcher::asked(std::size_t place, const DescribedPlace& query, StampNs newest) const {
+  std::vector<std::size_t> shown{place};
+  for (const std::size_t each : groups_.appearances(place))
+    if (each != place && (places_[each].session != query.session || places_[each].stamp <= newest))
+      shown.push_back(each);
+  return shown;
+}
+
+/// Returns a candidate for each place: of the appearances of one, the first that is admitted.
+std::vector<PlaceMatcher::Candidate> PlaceMatcher::candidatesByWords(
+    const DescribedPlace& query, const WordLikelihoods& likelihoods,
+    const std::function<bool(std::size_t)>& isCandidate) const {
+  std::vector<Candidate> all;
+  for (std::size_t i = 0; i < likelihoods.at_places.size(); ++i) {
+    if (!isCandidate(i) || groups_.isForgotten(i)) continue;
+    all.push_back({i, likelihoods.at_places[i], {}, i});
+    const std::vector<std::size_t>& shown = groups_.appearances(i);
+    if (shown.empty()) continue;
+    if (std::any_of(shown.begin(), shown.end(), [&](std::size_t each) { return each < i && isCandidate(each); })) {
+      all.pop_back();
+      continue;
+    }
+    for (const std::size_t each : asked(i, query, likelihoods.newest)) {
+      if (likelihoods.at_places[each] <= all.back().log_likelihood) continue;
+      all.back().log_likelihood = likelihoods.at_places[each];
+      all.back().shown = each;
+    }
+  }
+  return all;
 }
 
 /// Selects the first candidates, a third of them elsewhere than the very first.
@@ -77,11 +132,9 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::selectVaried(const std::vecto
 }
 
 std::vector<PlaceMatcher::Candidate> PlaceMatcher::likeliest(
-    const std::vector<double>& likelihoods, std::optional<int> compared,
+    const DescribedPlace& query, const WordLikelihoods& likelihoods, std::optional<int> compared,
     const std::function<bool(std::size_t)>& isCandidate) const {
-  std::vector<Candidate> all;
-  for (std::size_t i = 0; i < likelihoods.size(); ++i)
-    if (isCandidate(i)) all.push_back({i, likelihoods[i], {}});
+  std::vector<Candidate> all = candidatesByWords(query, likelihoods, isCandidate);
   const auto isLikelier = [](const Candidate& a, const Candidate& b) {
     return a.log_likelihood != b.log_likelihood ? a.log_likelihood > b.log_likelihood : a.place < b.place;
   };
@@ -103,16 +156,32 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::likeliest(
 void PlaceMatcher::compareAll(const ComparedFeatures& query, std::size_t step,
                               std::vector<Candidate>& candidates) const {
   std::vector<std::string> packed;
-  for (const Candidate& candidate : candidates) packed.push_back(packedLook(candidate.place));
+  for (const Candidate& candidate : candidates) packed.push_back(packedLook(candidate.shown));
   urban_nav_core::forEach(candidates.size(), 1, [&](std::size_t i) {
-    const ComparedFeatures all = unpackPlaceLook(packed[i], places_[candidates[i].place]);
+    const ComparedFeatures all = unpackPlaceLook(packed[i], places_[candidates[i].shown]);
     candidates[i].look = secondLook(query, step > 1 ? thinnedOut(all, step) : all);
   });
 }
 
+/// Compares the other appearances of the candidates, and keeps the best agreement of each.
+void PlaceMatcher::compareAppearances(const DescribedPlace& query, const ComparedFeatures& own, StampNs newest,
+                                      std::vector<Candidate>& candidates) const {
+  std::vector<Candidate> others;
+  std::vector<std::size_t> of_candidate;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    for (const std::size_t each : asked(candidates[i].place, query, newest)) {
+      if (each == candidates[i].shown) continue;
+      others.push_back({candidates[i].place, candidates[i].log_likelihood, {}, each});
+      of_candidate.push_back(i);
+    }
+  compareAll(own, 1, others);
+  for (std::size_t k = 0; k < others.size(); ++k)
+    if (others[k].share() > candidates[of_candidate[k]].share()) candidates[of_candidate[k]] = others[k];
+}
+
 bool PlaceMatcher::showSamePlace(const Candidate& best, const Candidate& other) const {
-  return other.look.share > kSamePlaceShare * best.look.share &&
-         secondLook(look(best.place), look(other.place)).share > best.look.share * kSamePlaceShare;
+  return other.share() > kSamePlaceShare * best.share() &&
+         agreement(best.shown, other.shown) > best.share() * kSamePlaceShare;
 }
 
 PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Candidate>& candidates, std::size_t which,
@@ -129,12 +198,12 @@ PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Ca
     match.has_elsewhere = true;
     if (which == 0 && showSamePlace(one, candidate)) continue;
     other_likelihood = std::max(other_likelihood, candidate.log_likelihood);
-    other_share = std::max(other_share, candidate.look.share);
+    other_share = std::max(other_share, candidate.share());
   }
   const double words = static_cast<double>(std::max<std::size_t>(1, query.words.size()));
-  match.evidence.look = std::sqrt(one.look.share);
+  match.evidence.look = std::sqrt(one.share());
   const bool has_others = std::isfinite(other_likelihood);
-  if (!has_others) other_share = kSamePlaceShare * one.look.share;
+  if (!has_others) other_share = kSamePlaceShare * one.share();
   if (match.has_elsewhere) match.evidence.look_margin = match.evidence.look - std::sqrt(other_share);
   if (has_others) match.evidence.word_margin = (one.log_likelihood - other_likelihood) / words;
   match.log_likelihood_new = std::isfinite(log_likelihood_new) ? log_likelihood_new : one.log_likelihood;
@@ -150,9 +219,9 @@ double PlaceMatcher::logLikelihoodNew(const WordSet& query) const {
 }
 
 std::vector<PlaceMatcher::Candidate> PlaceMatcher::comparedCandidates(
-    const DescribedPlace& query, const std::vector<double>& likelihoods, std::optional<int> compared,
+    const DescribedPlace& query, const WordLikelihoods& likelihoods, std::optional<int> compared,
     const std::function<bool(std::size_t)>& isCandidate) const {
-  std::vector<Candidate> candidates = likeliest(likelihoods, compared, isCandidate);
+  std::vector<Candidate> candidates = likeliest(query, likelihoods, compared, isCandidate);
   if (options_.second_looks > 0 && !candidates.empty()) {
     const ComparedFeatures own = unpackPlaceLook(query.look, query);
     const bool is_reduced = candidates.size() > static_cast<std::size_t>(options_.second_looks);
@@ -160,19 +229,21 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::comparedCandidates(
     compareAll(own, is_thinned ? kThinning : 1, candidates);
     if (is_reduced) {
       std::stable_sort(candidates.begin(), candidates.end(),
-                       [](const Candidate& a, const Candidate& b) { return a.look.share > b.look.share; });
+                       [](const Candidate& a, const Candidate& b) { return a.share() > b.share(); });
       candidates = selectVaried(candidates, options_.second_looks);
     }
     if (is_thinned) compareAll(own, 1, candidates);
+    if (!groups_.empty()) compareAppearances(query, own, likelihoods.newest, candidates);
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return a.look.share != b.look.share ? a.look.share > b.look.share : a.log_likelihood > b.log_likelihood;
+    return a.share() != b.share() ? a.share() > b.share() : a.log_likelihood > b.log_likelihood;
   });
   return candidates;
 }
 
-WordLikelihoods PlaceMatcher::likelihoods(const DescribedPlace& query) const {
+WordLikelihoods PlaceMatcher::likelihoods(const DescribedPlace& query, StampNs newest) const {
   WordLikelihoods likelihoods;
+  likelihoods.newest = newest;
   index_.logLikelihoods(query.words, likelihoods.at_places);
   likelihoods.at_new = logLikelihoodNew(query.words);
   return likelihoods;
@@ -181,7 +252,7 @@ WordLikelihoods PlaceMatcher::likelihoods(const DescribedPlace& query) const {
 std::vector<PlaceMatch> PlaceMatcher::matches(const DescribedPlace& query, const WordLikelihoods& likelihoods,
                                               std::optional<int> compared,
                                               const std::function<bool(std::size_t)>& isCandidate) const {
-  const std::vector<Candidate> candidates = comparedCandidates(query, likelihoods.at_places, compared, isCandidate);
+  const std::vector<Candidate> candidates = comparedCandidates(query, likelihoods, compared, isCandidate);
   std::vector<PlaceMatch> found;
   for (std::size_t i = 0; i < candidates.size(); ++i) found.push_back(judge(query, candidates, i, likelihoods.at_new));
   return found;
@@ -195,26 +266,26 @@ std::vector<PlaceMatch> PlaceMatcher::matches(const DescribedPlace& query,
 PlaceComparison PlaceMatcher::compare(const DescribedPlace& query, std::size_t place,
                                       const std::function<bool(std::size_t)>& isCandidate) const {
   PlaceComparison comparison;
-  std::vector<double> likelihoods;
-  index_.logLikelihoods(query.words, likelihoods);
-  std::vector<Candidate> candidates = comparedCandidates(query, likelihoods, std::nullopt, isCandidate);
-  auto found = std::find_if(candidates.begin(), candidates.end(),
-                            [place](const Candidate& candidate) { return candidate.place == place; });
+  const WordLikelihoods by_words = likelihoods(query);
+  std::vector<Candidate> candidates = comparedCandidates(query, by_words, std::nullopt, isCandidate);
+  const std::vector<std::size_t>& shown = groups_.appearances(place);
+  auto found = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
+    return candidate.place == place || std::find(shown.begin(), shown.end(), candidate.place) != shown.end();
+  });
   comparison.is_compared = found != candidates.end();
   comparison.is_first = comparison.is_compared && found == candidates.begin();
   if (!comparison.is_compared) {
-    candidates.push_back({place, likelihoods[place], {}});
+    candidates.push_back({place, by_words.at_places[place], {}, place});
     if (options_.second_looks > 0) candidates.back().look = secondLook(unpackPlaceLook(query.look, query), look(place));
     found = candidates.end() - 1;
   }
   comparison.look = found->look;
-  comparison.match =
-      judge(query, candidates, static_cast<std::size_t>(found - candidates.begin()), logLikelihoodNew(query.words));
+  comparison.match = judge(query, candidates, static_cast<std::size_t>(found - candidates.begin()), by_words.at_new);
   comparison.rank_by_words = 1;
-  for (std::size_t i = 0; i < likelihoods.size(); ++i) {
+  for (std::size_t i = 0; i < by_words.at_places.size(); ++i) {
     if (!isCandidate(i)) continue;
     ++comparison.candidates;
-    comparison.rank_by_words += likelihoods[i] > likelihoods[place] ? 1u : 0u;
+    comparison.rank_by_words += by_words.at_places[i] > by_words.at_places[place] ? 1u : 0u;
   }
   return comparison;
 }

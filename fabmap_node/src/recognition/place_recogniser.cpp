@@ -62,7 +62,7 @@ PlaceRecognition PlaceRecogniser::process(StampNs stamp, const PlaceDescription&
 /// sessions are searched on their own.
 std::vector<RecognisedPlace> PlaceRecogniser::recogniseSessions(const DescribedPlace& query, int cameras) {
   const StampNs newest = query.stamp - options_.mask;
-  const WordLikelihoods likelihoods = matcher_.likelihoods(query);
+  const WordLikelihoods likelihoods = matcher_.likelihoods(query, newest);
   std::vector<PlaceMatch> matches = matcher_.matches(query, likelihoods, std::nullopt, [&](std::size_t i) {
     const DescribedPlace& place = matcher_.place(i);
     return place.session != session_ || place.stamp <= newest;

@@ -160,6 +160,80 @@ TEST_F(LivePlacesTest, VerdictsChangeTheBeliefOfTheSessionOnly) {
   EXPECT_EQ(probabilityAfter(urban_nav_core::ClosureVerdict::Accepted), -1.0);
 }
 
+/// Returns an accepted closure of both drives at a place, 1 s apart.
+urban_nav_core::MetricClosure acceptedClosure(const std::string& a, StampNs stamp_a, StampNs stamp_b) {
+  urban_nav_core::MetricClosure closure;
+  closure.a = {a, stamp_a};
+  closure.b = {"", stamp_b};
+  closure.verdict = urban_nav_core::ClosureVerdict::Accepted;
+  closure.source = "loop_metric";
+  return closure;
+}
+
+TEST_F(LivePlacesTest, WhatIsLearntIsStoredAndKnownAfterARestart) {
+  drive(*begin(path_), kMonday, 0, 8);
+  const std::string monday = sessions(path_).at(0).id;
+  {
+    const auto places = begin(path_);
+    drive(*places, kTuesday, 0, 8);
+    for (unsigned i = 0; i < 8; ++i)
+      places->addVerdict(acceptedClosure(monday, kMonday + i * kObservationPeriod, kTuesday + i * kObservationPeriod));
+    places->commit();
+  }
+  ASSERT_EQ(sessions(path_).size(), 2u);
+  const std::string tuesday = sessions(path_).at(1).id;
+  std::vector<urban_nav_store::PlaceLink> links;
+  {
+    Store store(path_, Access::Read);
+    TableStore<urban_nav_store::PlaceLink>(store).forEach(
+        tuesday, [&](const urban_nav_store::PlaceLink& link) { links.push_back(link); });
+  }
+  ASSERT_EQ(links.size(), 8u);
+  EXPECT_EQ(links[3].earlier, monday);
+  EXPECT_EQ(links[3].earlier_stamp, kMonday + 3 * kObservationPeriod);
+  EXPECT_EQ(links[3].stamp, kTuesday + 3 * kObservationPeriod);
+  EXPECT_EQ(links[3].accepted, 1);
+  // Two processes that begin with the store agree on a third day.
+  std::vector<double> probabilities;
+  for (int process = 0; process < 2; ++process) {
+    const auto places = begin("");
+    places->load(path_);
+    const PlaceOutput output = observe(*places, kTuesday + 86'400 * kObservationPeriod, 3);
+    double of_monday = -1.0;
+    for (const LikelyPlace& place : output.belief.likeliest) {
+      EXPECT_EQ((place.at.stamp - kMonday) % (86'400 * kObservationPeriod), 3 * kObservationPeriod);
+      if (place.at.session == monday) of_monday = place.probability;
+    }
+    EXPECT_EQ(output.belief.likeliest.size(), 2u) << "each session names its observation of the place";
+    EXPECT_GT(of_monday, 0.0);
+    probabilities.push_back(of_monday);
+  }
+  EXPECT_EQ(probabilities[0], probabilities[1]);
+}
+
+TEST_F(LivePlacesTest, WhatThePoseGraphWithdrawsIsNotLearnt) {
+  drive(*begin(path_), kMonday, 0, 4);
+  const std::string monday = sessions(path_).at(0).id;
+  {
+    const auto places = begin(path_);
+    drive(*places, kTuesday, 0, 4);
+    urban_nav_core::MetricClosure closure = acceptedClosure(monday, kMonday, kTuesday);
+    places->addVerdict(closure);
+    closure.source = "pose_graph";
+    closure.verdict = urban_nav_core::ClosureVerdict::Rejected;
+    places->addVerdict(closure);
+    closure.source = "loop_metric";
+    closure.verdict = urban_nav_core::ClosureVerdict::Accepted;  // is late
+    places->addVerdict(closure);
+    places->commit();
+  }
+  Store store(path_, Access::Read);
+  std::vector<std::int64_t> accepted;
+  TableStore<urban_nav_store::PlaceLink>(store).forEach(
+      sessions(path_).at(1).id, [&](const urban_nav_store::PlaceLink& link) { accepted.push_back(link.accepted); });
+  EXPECT_EQ(accepted, (std::vector<std::int64_t>{0}));
+}
+
 TEST_F(LivePlacesTest, WhatComesWhileTheStoreIsInUseIsNotLost) {
   auto other = std::make_unique<Store>(path_, Access::Write);
   const auto places = begin(path_);

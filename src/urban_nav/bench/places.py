@@ -4,6 +4,7 @@
 two days     a site driven on two days; the second is matched with both, and with only the first (places of the second day are no candidates)
 reversed     as two days, matched with only the first; counted where the second day is driven in the opposite direction
 left images  as two days, by only the left image of the stereo head, two per second
+lights       a site by day, and on the second day at dusk and at night, matched with both; by all evidence
 one day      a drive that returns to its start, matched with itself
 strangers    other sites of the same world: each is matched with all previous ones, and every match is wrong
 real images  425 images of a car, with revisits: of $URBAN_NAV_DATA, if it is set
@@ -33,6 +34,7 @@ CLAIM_COLUMNS = ("world", "drives", "probability", "verdict", "stretch")
 TWO_DAYS = ("quad:930001:40", "street:930002:40", "begbroke:930003:30")
 OTHER_SITES = ("quad:930001:40,930004:20,930007:20", "street:930002:40,930005:20,930008:20", "begbroke:930003:30,930006:20,930009:20")
 ONE_DAY = "begbroke:930003:200"  # around the building in 170 s
+LIGHTS = ("street:930002:25:20", "quad:930001:25:20")  # s of the first day, and of the second in each light
 REVERSED = "quad:930001:40"  # to the archway
 RETURN_SECONDS = 60  # to the archway and back
 LEFT_IMAGES = "quad:930001:25"
@@ -44,7 +46,7 @@ STRETCH_M, STRETCH_IMAGES = 10.0, 5
 MASK_NS = 20 * 10**9
 FIRST_DAY_ALONE = ("--mask", 1000)  # s, longer than any second day
 OPPOSITE_DEG = 135.0
-KINDS = ("two days", "reversed", "left images", "one day", "strangers", "real images")
+KINDS = ("two days", "reversed", "left images", "lights", "one day", "strangers", "real images")
 
 Match = namedtuple("Match", "drive_a stamp_a drive_b stamp_b probability")  # a: the earlier place, b: the query
 Claim = namedtuple("Claim", "probability right revisit stretch")  # right: True, False, or None for neither
@@ -57,9 +59,9 @@ def matches(model, inputs, csv_path, options):
         return [Match(drives[r["session_a"]], int(r["stamp_a_ns"]), drives[r["session_b"]], int(r["stamp_b_ns"]), float(r["probability"])) for r in csv.DictReader(file)]
 
 
-def drive(folder, world, seed, duration, day=1, route="loops", sensors="ladybug"):
-    name = "_".join(map(str, (world, seed, day, *((route,) if route != "loops" else ()), *((duration, sensors) if sensors != "ladybug" else ()))))
-    return simulated_bag(folder / f"{name}.bag", world, seed, duration, "--day", day, "--route", route, "--sensors", sensors)
+def drive(folder, world, seed, duration, day=1, route="loops", sensors="ladybug", light="day"):
+    name = "_".join(map(str, (world, seed, day, *((route,) if route != "loops" else ()), *((duration, sensors) if sensors != "ladybug" else ()), *((light,) if light != "day" else ()))))
+    return simulated_bag(folder / f"{name}.bag", world, seed, duration, "--day", day, "--route", route, "--sensors", sensors, "--light", light)
 
 
 def left_images(bag):
@@ -152,20 +154,23 @@ class Bench:
         self.model, self.folder, self.models, self.probabilities, self.peers = model, folder, models, probabilities, peers
         self.rows, self.claims = [], []  # claims: (world, drives, Claim) with all evidence
 
-    def add(self, world, drives, inputs, judge, keep=lambda match: match.drive_b > 0, options=(), is_pooled=True):
+    def add(self, world, drives, inputs, judge, keep=lambda match: match.drive_b > 0, options=(), is_pooled=True, evidences=tuple(EVIDENCE)):
         print(f"looks for {world}, {drives}", file=sys.stderr)
-        for evidence, switches in EVIDENCE.items():
+        for evidence, switches in ((each, EVIDENCE[each]) for each in evidences):
             found = matches(self.model, inputs, self.folder / "matches.csv", (*switches, *options))
             claims = judge([match for match in found if keep(match)])
             self.rows.append(summary((world, drives, evidence), claims))
         self.claims += [(world, drives, claim) for claim in claims if is_pooled]
+
+    def add_days(self, world, drives, bags, **options):
+        self.add(world, drives, bags, lambda found: judged(found, bags, True), **options)
 
     def two_days(self):
         for case in TWO_DAYS:
             world, seed, duration = case.split(":")
             bags = [drive(self.folder, world, seed, duration, day) for day in (1, 2)]
             for drives, options, is_pooled in (("two days", (), True), ("two days, in the first alone", FIRST_DAY_ALONE, False)):
-                self.add(world, drives, bags, lambda found, bags=bags: judged(found, bags, True), options=options, is_pooled=is_pooled)
+                self.add_days(world, drives, bags, options=options, is_pooled=is_pooled)
 
     def reversed(self):
         world, seed, duration = REVERSED.split(":")
@@ -178,6 +183,14 @@ class Bench:
             sys.exit("left images need python3-rosbag")
         whole = [drive(self.folder, world, seed, duration, day, sensors="stereo") for day in (1, 2)]
         self.add(world, "two days, left images", [left_images(bag) for bag in whole], lambda found: judged(found, whole, True), options=("--topic", f"left:={LEFT_TOPIC}"))
+
+    def lights(self):
+        for case in LIGHTS:
+            world, seed, first, second = case.split(":")
+            by_day = drive(self.folder, world, seed, first)
+            for light in ("day", "dusk", "night"):
+                bags = [by_day, drive(self.folder, world, seed, second, 2, light=light)]
+                self.add_days(world, f"two days, the second {'by day' if light == 'day' else f'at {light}'}", bags, is_pooled=False, evidences=tuple(EVIDENCE)[-1:])
 
     def one_day(self):
         world, seed, duration = ONE_DAY.split(":")

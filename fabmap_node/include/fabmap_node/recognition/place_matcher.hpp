@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "fabmap_node/model/place_model.hpp"
+#include "fabmap_node/places/place_groups.hpp"
 #include "fabmap_node/places/place_index.hpp"
 #include "fabmap_node/recognition/second_look.hpp"
 #include "urban_nav_core/types/stamp.hpp"
@@ -48,6 +50,7 @@ struct PlaceMatch {
 struct WordLikelihoods {
   std::vector<double> at_places;  ///< one for each place
   double at_new = 0.0;            ///< at a new place; infinite without sampled places
+  urban_nav_core::StampNs newest = std::numeric_limits<urban_nav_core::StampNs>::max();  ///< see likelihoods()
 };
 
 /// Comparison of a place with a query, whether or not a search would compare it.
@@ -64,6 +67,9 @@ struct PlaceComparison {
 /// 3): likelihoods of words first, then descriptor matching for the likeliest candidates. The likelihood of a new place
 /// is the mean over the model's sampled places (Cummins and Newman 2008, section 4.4.2).
 ///
+/// Observations that geometry confirmed as one place (PlaceGroups) are its appearances: one of them is the candidate,
+/// the first one admitted, and of all the best is compared.
+///
 /// matches() is deterministic for any number of threads. Const functions are thread-safe if the reader of descriptors
 /// is.
 class PlaceMatcher {
@@ -79,8 +85,16 @@ class PlaceMatcher {
   std::size_t size() const { return places_.size(); }
   const DescribedPlace& place(std::size_t i) const { return places_[i]; }
 
-  /// Returns the likelihoods of a query for matches(); valid until a place is added.
-  WordLikelihoods likelihoods(const DescribedPlace& query) const;
+  /// Adds two places as appearances of one, or removes the pair. Requires a < b < size().
+  void confirm(const ConfirmedPair& pair);
+  void withdraw(std::size_t a, std::size_t b);
+  const PlaceGroups& groups() const { return groups_; }
+
+  /// Returns the likelihoods of a query for matches(); valid until a place is added. `newest`: later places of its
+  /// session are no appearances of other candidates.
+  WordLikelihoods likelihoods(
+      const DescribedPlace& query,
+      urban_nav_core::StampNs newest = std::numeric_limits<urban_nav_core::StampNs>::max()) const;
   /// Returns the compared places among those admitted by `isCandidate`, most probable first; empty if there are none.
   /// Margins of the first one exclude places elsewhere that show the same place; if all do, the margin is that to the
   /// best agreement that would not. Those of the others do not exclude them. `compared`:
@@ -103,12 +117,22 @@ class PlaceMatcher {
     std::size_t place = 0;
     double log_likelihood = 0.0;
     LookAgreement look;
+    std::size_t shown = 0;  // appearance of `place` with this agreement
+    double share() const { return look.share; }
   };
   bool isElsewhere(std::size_t a, std::size_t b) const;
-  std::vector<Candidate> likeliest(const std::vector<double>& likelihoods, std::optional<int> compared,
+  bool isNear(std::size_t a, std::size_t b) const;
+  double agreement(std::size_t a, std::size_t b) const;
+  std::vector<std::size_t> asked(std::size_t place, const DescribedPlace& query, urban_nav_core::StampNs newest) const;
+  std::vector<Candidate> candidatesByWords(const DescribedPlace& query, const WordLikelihoods& likelihoods,
+                                           const std::function<bool(std::size_t)>& isCandidate) const;
+  std::vector<Candidate> likeliest(const DescribedPlace& query, const WordLikelihoods& likelihoods,
+                                   std::optional<int> compared,
                                    const std::function<bool(std::size_t)>& isCandidate) const;
   std::vector<Candidate> selectVaried(const std::vector<Candidate>& ranked, int most) const;
-  std::vector<Candidate> comparedCandidates(const DescribedPlace& query, const std::vector<double>& likelihoods,
+  void compareAppearances(const DescribedPlace& query, const ComparedFeatures& own, urban_nav_core::StampNs newest,
+                          std::vector<Candidate>& candidates) const;
+  std::vector<Candidate> comparedCandidates(const DescribedPlace& query, const WordLikelihoods& likelihoods,
                                             std::optional<int> compared,
                                             const std::function<bool(std::size_t)>& isCandidate) const;
   double logLikelihoodNew(const WordSet& query) const;
@@ -123,6 +147,7 @@ class PlaceMatcher {
   const LookReader read_look_;  // empty: places_ contain the descriptors
   PlaceIndex index_, sampled_;
   std::vector<DescribedPlace> places_;
+  PlaceGroups groups_;
 };
 
 }  // namespace fabmap_node

@@ -52,6 +52,11 @@ class PlaceRecogniser {
   bool add(urban_nav_core::StampNs stamp, const PlaceDescription& description);
   PlaceRecognition process(urban_nav_core::StampNs stamp, const PlaceDescription& description);
 
+  /// Adds two places as appearances of one, or removes the pair: PlaceMatcher.
+  void confirm(const ConfirmedPair& pair) { matcher_.confirm(pair); }
+  void withdraw(std::size_t a, std::size_t b) { matcher_.withdraw(a, b); }
+  const PlaceGroups& groups() const { return matcher_.groups(); }
+
   /// Returns session index and stamp of a place.
   const DescribedPlace& place(std::size_t i) const { return matcher_.place(i); }
   std::size_t places() const { return matcher_.size(); }

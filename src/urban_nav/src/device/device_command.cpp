@@ -261,6 +261,7 @@ Command deviceCommand() {
       {"--world", "W", "simulate: simulate a session in this world first, instead of --bag", false, false, {}},
       {"--route", "R", "simulate: its route (default loops)", false, false, {}},
       {"--day", "D", "simulate: its day (default 1)", false, false, {}},
+      {"--light", "L", "simulate: its light, day, dusk or night (default day)", false, false, {}},
       {"--side", "SIDE", "simulate lms291: which laser (default left)", false, false, {"left", "right"}},
       {"--fault", "KIND:START_S:DURATION_S[:VALUE]", "simulate: " + urban_nav_sim::deviceFaultList(), false, true, {}},
       {"--clock", "OFFSET_S:PPM", "simulate: clock of the device relative to that of the host", false, false, {}},

@@ -27,6 +27,7 @@ urban_nav_sim::SessionOptions simulatedSession(const Arguments& arguments) {
   session.world = arguments.get("world", session.world);
   session.route = arguments.get("route", session.route);
   session.day = static_cast<int>(arguments.integer("day", 1, 1, 100000));
+  session.light = urban_nav_sim::parseLight(arguments.get("light", "day"));
   session.duration = arguments.number("duration", session.duration, 0.1, 86400.0);
   session.seed = static_cast<std::uint32_t>(arguments.integer("seed", 1, 0, 4294967295));
   return session;

@@ -41,6 +41,7 @@ SimulateJob makeJob(const Arguments& arguments) {
   job.session.route = arguments.get("route", job.session.route);
   job.session.seed = static_cast<std::uint32_t>(arguments.integer("seed", 1, 0, 4294967295));
   job.session.day = static_cast<int>(arguments.integer("day", 1, 1, 100000));
+  job.session.light = urban_nav_sim::parseLight(arguments.get("light", "day"));
   job.session.duration = arguments.number("duration", job.session.duration, 0.1, kLongest);
   job.session.sensors = parseSensors(arguments);
   job.session.views = makeList("views", arguments);
@@ -103,6 +104,12 @@ Command simulateCommand() {
       {"--day",
        "D",
        "1, 2, ...: the same world with different weather, vehicles and people (default 1)",
+       false,
+       false,
+       {}},
+      {"--light",
+       "L",
+       "day, dusk (sun at 3 deg) or night (street lamps, lit windows), of any --day (default day)",
        false,
        false,
        {}},
@@ -178,6 +185,7 @@ Command simulateCommand() {
   };
   command.examples = {
       "urban_nav simulate --world quad --seed 7 --route loops --duration 300 --day 2 -o day2.bag",
+      "urban_nav simulate --world street --light dusk --day 2 -o dusk.bag",
       "urban_nav simulate --sensors stereo --folder quad/ -o quad.bag",
       "urban_nav simulate --without all:all --with stereo:lens --views stereo,lasers -o ideal.bag",
       "urban_nav simulate --world tunnel --sensors stereo,lidar3d --lidar 16 --views lidar3d -o tunnel.bag",

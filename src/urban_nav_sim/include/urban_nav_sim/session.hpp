@@ -13,6 +13,7 @@
 #include "urban_nav_sim/defect.hpp"
 #include "urban_nav_sim/fault.hpp"
 #include "urban_nav_sim/lidar_model.hpp"
+#include "urban_nav_sim/light.hpp"
 #include "urban_nav_sim/measurement.hpp"
 
 namespace urban_nav_sim {
@@ -21,8 +22,9 @@ namespace urban_nav_sim {
 struct SessionOptions {
   std::string world = "quad", route = "loops";
   std::uint32_t seed = 1;
-  int day = 1;             ///< 1, 2, ...
-  double duration = 60.0;  ///< s
+  int day = 1;               ///< 1, 2, ...
+  Light light = Light::Day;  ///< seen by the cameras; truth, motion and the other sensors are the same in each
+  double duration = 60.0;    ///< s
   std::set<Sensor> sensors{kDefaultSensors.begin(), kDefaultSensors.end()};
   LidarModel lidar;  ///< if lidar3d is among the sensors
   Defects defects;

@@ -112,7 +112,7 @@ class Smoother {
     return areSame(tracer_, traces_.met[pixel], {seen.hits.facet[share.first], seen.hits.mover[share.first]});
   }
 
-  /// Writes the mean over the shares. `examined`: lanes with known sun visibility; for a share without any, the light
+  /// Writes the mean over the shares. `examined`: lanes with known light; for a share without any, the light
   /// is already in the picture.
   void put(const Packet& packet, const Eye::Seen& seen, const Shares& shares, std::uint32_t examined,
            std::size_t pixel) const {
@@ -125,10 +125,8 @@ class Smoother {
       if ((lanes & examined) == 0) {
         std::copy_n(radiance, channels, own.begin());
       } else {
-        const Vector3f direction = packet.beamDirection(first);
-        const auto sunlit = static_cast<float>(bits(lanes & seen.sunlit)) / static_cast<float>(bits(lanes & examined));
-        const auto& point = seen.points[static_cast<std::size_t>(first)];
-        urban_nav_sim::put(seen.met(first) ? eye_.light(point, direction, sunlit) : eye_.skyLight(direction),
+        urban_nav_sim::put(seen.met(first) ? eye_.light(packet, seen, first, lanes & examined)
+                                           : eye_.skyLight(packet.beamDirection(first)),
                            picture_.channels, own.data());
       }
       for (std::size_t c = 0; c < channels; ++c) sum[c] += static_cast<float>(bits(lanes)) * own[c];

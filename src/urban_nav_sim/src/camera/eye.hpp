@@ -12,7 +12,7 @@
 
 namespace urban_nav_sim {
 
-/// A packet of rays through a picture: directions, hits, and visibility of the sun.
+/// A packet of rays through a picture: directions, hits, and visibility of sun and lamps.
 class Eye {
  public:
   Eye(const Snapshot& snapshot, const Sky& sky, const RayTable& rays, const urban_nav_core::Pose& T_world_camera);
@@ -22,8 +22,10 @@ class Eye {
 
   struct Seen {
     Hits hits;
-    std::array<SurfacePoint, kLanes> points;  ///< of the requested lanes with a hit
-    std::uint32_t sunlit = 0;                 ///< of these; bit i: lane i
+    std::array<SurfacePoint, kLanes> points;     ///< of the requested lanes with a hit
+    std::uint32_t sunlit = 0;                    ///< of these; bit i: lane i
+    std::array<Eigen::Vector3f, kLanes> lamps;   ///< of these, at night: radiance of a white surface by lamps
+    std::array<std::uint8_t, kLanes> shadows{};  ///< of these: differs where another light is hidden
     bool met(int lane) const { return hits.facet[lane] != kNothing; }
   };
   void trace(const Packet& packet, Seen& seen) const { snapshot_.closest(packet, seen.hits); }
@@ -31,11 +33,12 @@ class Eye {
   void examine(const Packet& packet, const std::array<std::array<int, 2>, kLanes>& pixels, std::uint32_t lanes,
                Seen& seen) const;
 
-  /// Returns the light along a ray. `sunlit`: visible share of the sun.
-  Eigen::Vector3f light(const SurfacePoint& point, const Eigen::Vector3f& direction, float sunlit) const;
+  /// Returns the light along the ray of lane `first` with the mean illumination of `lanes`, all of them examined.
+  Eigen::Vector3f light(const Packet& packet, const Seen& seen, int first, std::uint32_t lanes) const;
   Eigen::Vector3f skyLight(const Eigen::Vector3f& direction) const { return sky_.radiance(direction.normalized()); }
 
  private:
+  void askLamps(std::uint32_t lanes, Seen& seen) const;
   Eigen::Vector3f inWorld(const Eigen::Vector2f& ideal, float z) const {
     return R_ * Eigen::Vector3f(ideal.x(), ideal.y(), z);
   }

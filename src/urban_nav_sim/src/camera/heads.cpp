@@ -17,22 +17,29 @@ Imager::Settings toImagerSettings(const CameraDefects& defects, double sensitivi
 
 Imager::Settings colourSettings(const CameraDefects& defects, const Day& day) {
   Imager::Settings settings = toImagerSettings(defects, 1.0);
-  // Balanced for the light of the day: a white sheet in the sun is grey.
-  const Eigen::Vector3f light = day.sun + day.sky;
-  settings.white_balance = Eigen::Vector3f::Constant(light.y()).cwiseQuotient(light);
+  // Balanced for the light of the day: a white sheet in the sun is grey. After sunset it remains at daylight, as a
+  // fixed setting: the low sun and lamps look warm.
+  if (day.light == Light::Day) {
+    const Eigen::Vector3f light = day.sun + day.sky;
+    settings.white_balance = Eigen::Vector3f::Constant(light.y()).cwiseQuotient(light);
+  }
   settings.gamma = 0.5;
   settings.vignetting *= 1.3;  // wide lenses
   return settings;
 }
 
-AutoExposure::Settings greyExposure(const CameraDefects& defects) {
+AutoExposure::Settings greyExposure(const CameraDefects& defects, const Day& day) {
   AutoExposure::Settings settings;
+  if (day.light == Light::Night) {
+    settings.longest = 0.045;  // of a period of 50 ms; readout takes the rest
+    settings.largest_gain = 15.8;
+  }
   settings.adapts = defects.adapts;
   return settings;
 }
 
-AutoExposure::Settings colourExposure(const CameraDefects& defects) {
-  AutoExposure::Settings settings = greyExposure(defects);
+AutoExposure::Settings colourExposure(const CameraDefects& defects, const Day& day) {
+  AutoExposure::Settings settings = greyExposure(defects, day);
   settings.target = 70.0;  // before gamma
   return settings;
 }
@@ -47,7 +54,7 @@ StereoHead::StereoHead(const Tracer& tracer, const Sky& sky, StereoImages images
       cameras_(bumblebee(images)),
       imagers_{Imager(cameras_[0].lens, toImagerSettings(defects, 1.0), Noise(seed, "stereo left")),
                Imager(cameras_[1].lens, toImagerSettings(defects, 0.97), Noise(seed, "stereo right"))},
-      exposure_(greyExposure(defects)) {}
+      exposure_(greyExposure(defects, sky.day())) {}
 
 std::array<cv::Mat, 2> StereoHead::take(const Motion& motion, double t) {
   const Snapshot snapshot(tracer_, t, t);
@@ -69,7 +76,7 @@ LadybugHead::LadybugHead(const Tracer& tracer, const Sky& sky, const Pose& T_bas
                          const CameraDefects& defects)
     : tracer_(tracer), sky_(sky), T_base_head_(T_base_head), cameras_(ladybug()) {
   const Noise noise(seed, "ladybug");
-  exposures_.fill(AutoExposure(colourExposure(defects)));
+  exposures_.fill(AutoExposure(colourExposure(defects, sky.day())));
   for (const Camera& camera : cameras_) {
     imagers_.emplace_back(camera.lens, colourSettings(defects, sky.day()), noise.of(imagers_.size()));
   }

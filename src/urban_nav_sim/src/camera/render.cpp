@@ -32,15 +32,14 @@ void renderBlock(const Eye& eye, int u0, int v0, Picture& picture, Traces& trace
   eye.examine(packet, pixels, inside, seen);
   for (int lane = 0; lane < kLanes; ++lane) {
     if ((inside >> lane & 1U) == 0) continue;
-    const bool met = seen.met(lane), sunlit = (seen.sunlit >> lane & 1U) != 0;
+    const bool met = seen.met(lane);
     const auto& point = seen.points[static_cast<std::size_t>(lane)];
-    const Eigen::Vector3f direction = packet.beamDirection(lane);
     const std::size_t pixel = picture.at(u0 + lane % kBlock, v0 + lane / kBlock);
     traces.met[pixel] = {seen.hits.facet[lane], met ? seen.hits.mover[lane] : kNothing};
-    traces.sunlit[pixel] = sunlit ? 1 : 0;
+    traces.shadows[pixel] = seen.shadows[static_cast<std::size_t>(lane)];
     picture.depth[pixel] = met ? static_cast<float>(point.distance) : std::numeric_limits<float>::infinity();
     picture.surface_class[pixel] = static_cast<std::uint8_t>(met ? point.surface_class : SurfaceClass::Other);
-    put(met ? eye.light(point, direction, sunlit ? 1.0F : 0.0F) : eye.skyLight(direction), picture.channels,
+    put(met ? eye.light(packet, seen, lane, 1U << lane) : eye.skyLight(packet.beamDirection(lane)), picture.channels,
         &picture.radiance[pixel * static_cast<std::size_t>(picture.channels)]);
   }
 }
@@ -58,7 +57,7 @@ void render(const Snapshot& snapshot, const Sky& sky, const RayTable& rays, cons
   picture.surface_class.resize(pixels);
   Traces traces;
   traces.met.resize(pixels);
-  traces.sunlit.resize(pixels);
+  traces.shadows.resize(pixels);
   const Eye eye(snapshot, sky, rays, T_world_camera);
   const auto stripes = static_cast<std::size_t>((picture.height + kBlock - 1) / kBlock);
   urban_nav_core::forEach(stripes, 2, [&](std::size_t stripe) {

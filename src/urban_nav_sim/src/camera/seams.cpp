@@ -22,7 +22,7 @@ unsigned seam(const Tracer& tracer, const Traces& traces, std::size_t a, std::si
   const Met &one = traces.met[a], &other = traces.met[b];
   const bool is_one = one.facet == other.facet && one.mover == other.mover;
   if (!is_one && !areSame(tracer, one, other)) return kSurface;
-  if (traces.sunlit[a] != traces.sunlit[b]) return kShadow;
+  if (traces.shadows[a] != traces.shadows[b]) return kShadow;
   return !is_one && isLeaf(tracer, one.facet) ? kSurface : 0U;
 }
 

@@ -21,7 +21,7 @@ bool areSame(const Tracer& tracer, const Met& a, const Met& b);
 /// Hits of the rays through the centres of the pixels, row by row.
 struct Traces {
   std::vector<Met> met;
-  std::vector<std::uint8_t> sunlit;
+  std::vector<std::uint8_t> shadows;  ///< differs between points to which other lights are hidden
 };
 
 enum class Edge { None, OfSurface, OfShadow };

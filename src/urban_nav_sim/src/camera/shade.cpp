@@ -23,8 +23,8 @@ float sunOn(const SurfacePoint& point, const Sky& sky) {
 bool facesSun(const SurfacePoint& point, const Sky& sky) { return sunOn(point, sky) > 0.0F; }
 
 Vector3f shade(const SurfacePoint& point, const Appearance& look, const Vector3f& direction, float sunlit,
-               const Sky& sky) {
-  Vector3f light = sky.ambient(point.normal);
+               const Vector3f& lamps, const Sky& sky) {
+  Vector3f light = sky.ambient(point.normal) + lamps;
   if (sunlit > 0.0F) light += sunlit * sunOn(point, sky) * sky.day().sun;
   Vector3f scattered = look.albedo.cwiseProduct(light);
   if (!(look.gloss > 0.0F)) return scattered;

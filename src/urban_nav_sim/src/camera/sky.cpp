@@ -65,6 +65,8 @@ Sky::Sky(const Day& day, std::uint64_t seed) : day_(day) {
   for (int column = 0; column < kColumns; ++column) haze_ += map_[static_cast<std::size_t>(column)] / kColumns;
 }
 
+Sky::Sky(const World& world, std::uint64_t seed) : Sky(world.day, seed) { lights_ = Lights(world); }
+
 Vector3f Sky::evaluate(const Vector3f& direction, std::uint64_t seed) const {
   const float z = std::max(direction.z(), 0.0F);
   // Paler and about twice as bright at the horizon as overhead; the mean over the dome stays about day.sky.

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "world/day.hpp"
+#include "camera/lights.hpp"
+#include "world/world.hpp"
 
 namespace urban_nav_sim {
 
@@ -13,9 +14,13 @@ namespace urban_nav_sim {
 /// clear day. Immutable, hence thread-safe.
 class Sky {
  public:
+  /// A sky without electric lights below it.
   Sky(const Day& day, std::uint64_t seed);
+  /// The sky of a world, with its lights.
+  Sky(const World& world, std::uint64_t seed);
 
   const Day& day() const { return day_; }
+  const Lights& lights() const { return lights_; }
   /// Returns the radiance in a direction (unit, `world`); haze below the horizon.
   Eigen::Vector3f radiance(const Eigen::Vector3f& direction) const;
   /// Returns the radiance for mirror reflections: sky above the roofs, dark outline below.
@@ -33,6 +38,7 @@ class Sky {
   Eigen::Vector3f sample(const Eigen::Vector3f& direction) const;
 
   Day day_;
+  Lights lights_;
   Eigen::Vector3f haze_ = Eigen::Vector3f::Zero();
   std::vector<Eigen::Vector3f> map_;  ///< rows: elevation from the horizon up; columns: azimuth, one more than a turn
 };

@@ -27,6 +27,8 @@ const Table<SimulatorParameters>& simulatorTable() {
            "Seed of the world and of all random numbers: the same seed gives the same bytes.", "docs/conventions.md"},
           {"day", &P::day, "", 1, 1, 100000, {},
            "Day: the same world with different weather, vehicles and people.", ""},
+          {"light", &P::light, "", "day", false, false, {"day", "dusk", "night"},
+           "Time of day: the sun of the day, 3 deg above the horizon, or none, with street lamps and lit windows.", ""},
           {"duration", &P::duration, "s", 60.0, 0.1, 86400.0, {}, "Duration of the session.", ""},
           {"sensors", &P::sensors, "", "stereo, ladybug, lasers, imu, wheels, gps", false, false, {},
            "Sensors of the robot, separated by commas; others take no time.", "docs/architecture.md"},
@@ -66,6 +68,7 @@ SessionOptions sessionOptions(const SimulatorParameters& parameters, const std::
   options.route = parameters.route;
   options.seed = static_cast<std::uint32_t>(parameters.seed);
   options.day = parameters.day;
+  options.light = parseLight(parameters.light, where + "light");
   options.duration = parameters.duration;
   options.lidar = parseLidarModel(parameters.lidar, where + "lidar");
   options.sensors.clear();

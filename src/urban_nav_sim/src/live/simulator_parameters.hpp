@@ -13,6 +13,7 @@ namespace urban_nav_sim {
 struct SimulatorParameters {
   std::string world, route;
   int seed, day;
+  std::string light;          // as --light
   double duration;            // s
   std::string sensors;        // words of sensorList()
   std::string lidar;          // as --lidar

@@ -43,6 +43,7 @@ Appearance lookAt(const Material& material, const MaterialSample& spot) {
   look.infrared = material.infrareds[0] + (material.infrareds[1] - material.infrareds[0]) * detail.mix +
                   material.infrared_per_tone * detail.tone;
   look.gloss = material.glosses[0] + (material.glosses[1] - material.glosses[0]) * detail.mix;
+  look.glass = material.glass[0] + (material.glass[1] - material.glass[0]) * detail.mix;
   float stain = 0.0F;
   // Layers may blur along the long axis: their detail is coarse, and taps would double the time.
   const float width = 0.5F * (footprint.width + footprint.length.norm());

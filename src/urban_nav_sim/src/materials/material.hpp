@@ -32,6 +32,7 @@ struct Material {
                                             Eigen::Vector3f::Constant(0.5F)};  ///< linear RGB at mix 0 and 1
   std::array<float, 2> infrareds = {0.5F, 0.5F};                               ///< albedo at 905 nm
   std::array<float, 2> glosses = {0.0F, 0.0F};
+  std::array<float, 2> glass = {0.0F, 0.0F};           ///< share through which a room is seen at mix 0 and 1: windows
   Eigen::Vector3f per_tone = Eigen::Vector3f::Zero();  ///< change of albedo per tone of the detail
   float infrared_per_tone = 0.0F;
   std::shared_ptr<const Tile> detail;  ///< null: uniform colour
@@ -56,6 +57,7 @@ struct Appearance {
   Eigen::Vector3f albedo = Eigen::Vector3f::Constant(0.5F);  ///< linear RGB, 0 ... 1
   float infrared = 0.5F;                                     ///< albedo at 905 nm, for lasers
   float gloss = 0.0F;                                        ///< share of specular reflection: windows, wet ground
+  float glass = 0.0F;                                        ///< share through which a room is seen
 };
 
 Appearance lookAt(const Material& material, const MaterialSample& spot);

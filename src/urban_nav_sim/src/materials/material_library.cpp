@@ -214,7 +214,7 @@ Material MaterialLibrary::made(MaterialKind stuff, Draw& v) {
                                                         : Drawing::Shop);
       m.colours = {Vector3f(0.09F, 0.09F, 0.09F), varied({0.62F, 0.6F, 0.55F}, 0.15, 0.04, v)},
       m.per_tone = Vector3f(0.26F, 0.24F, 0.21F);
-      m.glosses = {0.3F, 0.03F}, m.infrareds = {0.08F, 0.55F};
+      m.glass = {0.9F, 0.0F}, m.glosses = {0.3F, 0.03F}, m.infrareds = {0.08F, 0.55F};
       m.layers = {clouds(0.35F, 0.2F, Vector3f::Constant(0.04F), Vector3f::Constant(0.03F)), Layer()};
       break;
     case MaterialKind::Door:

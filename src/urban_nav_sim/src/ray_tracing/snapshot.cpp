@@ -161,6 +161,7 @@ SurfacePoint Snapshot::surfaceAt(const Hits& hits, int lane, const Packet& rays,
 
   SurfacePoint point;
   point.distance = distance;
+  point.corner = facet.corner;
   const Tracer::PartAppearance& part = tracer_.partIndex(facet);
   point.material = part.material;
   point.surface_class = part.surface_class;

@@ -67,6 +67,7 @@ struct SurfacePoint {
   double distance = 0.0;                               ///< in lengths of the direction, refined in double precision
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< m, in `world`
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();   ///< unit, in `world`, towards the origin of the ray
+  Eigen::Vector3f corner = Eigen::Vector3f::Zero();    ///< m, first vertex of its triangle, in the frame of its Part
   MaterialSample spot;                                 ///< argument of lookAt
   const Material* material = nullptr;
   SurfaceClass surface_class = SurfaceClass::Other;

@@ -67,7 +67,7 @@ class OpticalSensors::Implementation {
         laser_settings_(laserSettings(defects)),
         faults_(faults),
         tracer_(world),
-        sky_(world.day, noise.of("sky").bits(0)),
+        sky_(world, noise.of("sky").bits(0)),
         stereo_(tracer_, sky_, stereoImages(defects), sensorPose(frames::kStereoLeft), noise.of("stereo").bits(0),
                 cameraDefects(defects, Sensor::Stereo)),
         ladybug_(tracer_, sky_, ladybugPlace(), noise.of("ladybug").bits(0), cameraDefects(defects, Sensor::Ladybug)),

@@ -69,7 +69,7 @@ class Session::Implementation {
   explicit Implementation(const SessionOptions& options)
       : options_(checked(options)),
         route_(makeRoute(options_)),
-        world_(buildWorld(options_.world, options_.seed, options_.day)),
+        world_(buildWorld(options_.world, options_.seed, options_.day, options_.light)),
         motion_(simulateDrive(world_, route_, rideOptions(options_))),
         begin_(kFirstDay + (options_.day - 1) * kOneDay),
         noise_(Noise(options_.seed, "session").of(static_cast<std::uint64_t>(options_.day))),

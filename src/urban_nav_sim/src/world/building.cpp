@@ -135,6 +135,7 @@ void buildWall(Site& site, const Finish& finish, const Finish& trim, const Vecto
 }
 
 void buildHouse(Site& site, const Extent& e, const Style& s) {
+  site.beginHouse();
   const double floor = site.ground(0.5 * (e.x0 + e.x1), 0.5 * (e.y0 + e.y1)) + 0.05;
   const double eaves = floor + s.storeys * s.storey + (s.pitch > 0.0 ? 0.1 : 0.9);
   const std::array<Vector2d, 4> corners = {Vector2d(e.x0, e.y0), Vector2d(e.x1, e.y0), Vector2d(e.x1, e.y1),

@@ -16,8 +16,9 @@ using urban_nav_core::Pose;
 
 namespace {
 
-constexpr double kHalf = 1.4;     // half the width of the corridor, m
-constexpr double kCeiling = 2.7;  // m
+constexpr double kHalf = 1.4;           // half the width of the corridor, m
+constexpr double kCeiling = 2.7;        // m
+constexpr double kBelowCeiling = 0.12;  // m, of the light of a lamp
 constexpr double kDoorWidth = 0.95, kDoorHeight = 2.1;
 
 /// A corridor around a block, determined by the seed; its centre line passes through the origin.
@@ -112,9 +113,15 @@ void furnish(Site& site, const CorridorPlan& p, std::uint32_t seed) {
     site.box(metal, {x + draw.uniform(-2, 2), outer.y1 - 0.17, 0}, {draw.uniform(0.6, 1.2), 0.34, 0.6});
   }
   for (const double y : {0.0, p.depth})
-    for (double x = outer.x0 + 2; x < outer.x1 - 2; x += 4.5) site.box(lamp, {x, y, kCeiling - 0.08}, {1.2, 0.2, 0.08});
+    for (double x = outer.x0 + 2; x < outer.x1 - 2; x += 4.5) {
+      site.box(lamp, {x, y, kCeiling - 0.08}, {1.2, 0.2, 0.08});
+      site.lamp({x, y, kCeiling - kBelowCeiling}, Bulb::Neutral);
+    }
   for (const double x : {-10.0, p.length - 10.0})
-    for (double y = 3; y < p.depth - 2; y += 4.5) site.box(lamp, {x, y, kCeiling - 0.08}, {0.2, 1.2, 0.08});
+    for (double y = 3; y < p.depth - 2; y += 4.5) {
+      site.box(lamp, {x, y, kCeiling - 0.08}, {0.2, 1.2, 0.08});
+      site.lamp({x, y, kCeiling - kBelowCeiling}, Bulb::Neutral);
+    }
 }
 
 }  // namespace

@@ -4,11 +4,14 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "urban_nav_sim/light.hpp"
+
 namespace urban_nav_sim {
 
 /// Light and weather of a session. Radiances are linear; 1 is a white surface in the sun of a clear day.
 struct Day {
   int number = 1;
+  Light light = Light::Day;
   Eigen::Vector3f to_sun = Eigen::Vector3f::UnitZ();           ///< unit, in `world`
   Eigen::Vector3f sun = Eigen::Vector3f(0.80F, 0.76F, 0.68F);  ///< radiance of a white surface that faces the sun, RGB
   Eigen::Vector3f sky = Eigen::Vector3f(0.24F, 0.28F, 0.36F);  ///< same by the sky, for a surface facing up
@@ -19,6 +22,7 @@ struct Day {
   float leaves = 1.0F;                       ///< share of the leaves on the trees
 };
 
-Day makeDay(std::uint32_t seed, int number);
+/// Weather, wetness and leaves of a day are the same in each light.
+Day makeDay(std::uint32_t seed, int number, Light light = Light::Day);
 
 }  // namespace urban_nav_sim

@@ -79,6 +79,7 @@ void placeLamp(Site& site, double x, double y, double yaw) {
   const Vector3d arm = foot + Vector3d(0.9 * std::cos(yaw), 0.9 * std::sin(yaw), 4.35);
   site.pole(iron, foot + Vector3d(0, 0, 4.15), arm, 0.035, 0.03, 6);
   site.box({MaterialKind::PaintedWood, 1, 2}, arm - Vector3d(0, 0, 0.1), {0.45, 0.22, 0.14}, yaw);
+  site.lamp(arm - Vector3d(0, 0, 0.14));  // just below the lantern
 }
 
 void placeBench(Site& site, double x, double y, double yaw) {

@@ -136,6 +136,15 @@ void furnishCourt(Site& site, const QuadPlan& p, std::uint32_t seed) {
     placeBench(site, c.x0 + t * (c.x1 - c.x0), c.y0 + 0.55, M_PI);
     placeBench(site, c.x1 - 0.5, c.y0 + (t < 0.5 ? 0.2 : 0.8) * (c.y1 - c.y0), -M_PI / 2);
   }
+  // Lamps at the walls, 3.2 m high, and at both ends of the archway.
+  constexpr double kHeight = 3.2, kOut = 0.25;  // m
+  for (const double t : {0.2, 0.5, 0.8}) {
+    const double x = c.x0 + t * (c.x1 - c.x0), y = c.y0 + t * (c.y1 - c.y0);
+    site.wallLamp(x, c.y0 + kOut, kHeight);
+    site.wallLamp(x, c.y1 - kOut, kHeight);
+    if (std::abs(y - p.gate) > kArch) site.wallLamp(c.x1 - kOut, y, kHeight);
+  }
+  for (const double x : {p.east - 0.6, p.garden + 0.6}) site.wallLamp(x, p.gate - 0.5 * kArch - 0.35, 2.6);
   // At the centre of the lawn: a plinth with a sundial, and a tree to one side.
   const Vector2d m(0.5 * (c.x0 + c.x1), 0.5 * (c.y0 + c.y1));
   const Vector3d foot(m.x(), m.y(), site.ground(m.x(), m.y()));
@@ -158,6 +167,12 @@ void plantGardens(Site& site, const QuadPlan& p, std::uint32_t seed) {
       garden_wall({g.x1, g.y1}, {g.x0, g.y1}, 2.4);
   garden_wall({g.x0 + 0.25, p.south - kWing}, {g.x0 + 0.25, g.y0}, 2.6),
       garden_wall({g.x0 + 0.25, g.y1}, {g.x0 + 0.25, p.north + kWing + 2}, 2.4);
+  constexpr double kLampSpacing = 16.0, kLampHeight = 2.2;  // m
+  for (double y = g.y0 + 8.0; y < g.y1; y += kLampSpacing) site.wallLamp(g.x1 - 0.5, y, kLampHeight);
+  for (double x = g.x0 + 8.0; x < g.x1; x += kLampSpacing) {
+    site.wallLamp(x, g.y0 + 0.5, kLampHeight);
+    site.wallLamp(x, g.y1 - 0.5, kLampHeight);
+  }
   const auto free = [&](double x, double y, double room) { return distanceTo(line, x, y) > room; };
   for (int i = 0, planted = 0; i < 900 && planted < 34; ++i) {
     const double x = draw.uniform(g.x0 + 3, g.x1 - 2), y = draw.uniform(g.y0 + 2, g.y1 - 2),

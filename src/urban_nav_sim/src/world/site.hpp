@@ -20,6 +20,9 @@ struct Finish {
   std::uint32_t seed = 0;
 };
 
+/// Light of a lamp: that of streets, and that of rooms.
+enum class Bulb { Sodium, Neutral };
+
 /// Assembles a world: triangles are sorted into parts by their appearance.
 class Site {
  public:
@@ -42,6 +45,12 @@ class Site {
   void pole(const Finish& finish, const Eigen::Vector3d& below, const Eigen::Vector3d& above, double r0, double r1,
             int sides = 8);
 
+  /// Subsequent windows belong to another house.
+  void beginHouse() { ++house_; }
+  /// Adds a light without geometry, at `height` above the ground: a street lamp, or a lamp at a wall.
+  void lamp(const Eigen::Vector3d& position, Bulb bulb = Bulb::Sodium);
+  void wallLamp(double x, double y, double height);
+
   /// Subsequent parts belong to a mover, in its frame; `take` returns it, `release` adds it to the world; both continue
   /// with the static world.
   void beginMover();
@@ -55,6 +64,7 @@ class Site {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> parts_, mover_parts_;
   Mover mover_;
   bool moving_ = false;
+  std::uint32_t house_ = 0;
 };
 
 }  // namespace urban_nav_sim

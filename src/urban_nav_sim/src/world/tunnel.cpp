@@ -15,6 +15,7 @@ namespace {
 constexpr double kFrom = -240.0, kTo = 560.0;  // m along x; both ends are beyond the range of lasers from every route
 constexpr double kPiece = 8.0;                 // m, length of a wall segment
 constexpr double kRibDepth = 0.3, kRibLength = 0.6;
+constexpr double kLampSpacing = 10.0;  // m, of the lamps under the crown; half of the ribs' spacing
 
 /// Returns the cross-section in the y-z plane, from the foot of the right wall over the crown to that of the left wall.
 std::vector<Vector2d> crossSection(double inset) {
@@ -76,6 +77,8 @@ World buildTunnel(std::uint32_t seed, int day, bool has_ribs) {
   const std::vector<Vector2d> wall = crossSection(0.0), inner = crossSection(kRibDepth);
   for (double x = kFrom; x < kTo; x += kPiece) addLining(site, lining, wall, x, x + kPiece);
   for (const double x : {kFrom, kTo}) addEnd(site, lining, x);
+  for (double x = kFrom + 0.5 * kLampSpacing; x < kTo; x += kLampSpacing)
+    site.lamp({x, 0.0, kTunnelSpring + kTunnelHalfWidth - 0.4});
   if (!has_ribs) return world;
   for (double x = kFrom + 0.5 * kRibSpacing; x < kTo; x += kRibSpacing) {
     addLining(site, rib, inner, x, x + kRibLength);

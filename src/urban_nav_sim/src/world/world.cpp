@@ -19,7 +19,9 @@ std::vector<std::string> worldNames() {
   return names;
 }
 
-World buildWorld(const std::string& world, std::uint32_t seed, int day) {
+namespace {
+
+World buildByDay(const std::string& world, std::uint32_t seed, int day) {
   if (world == "quad") return buildQuad(seed, day);
   if (world == "begbroke") return buildBegbroke(seed, day);
   if (world == "street") return buildStreet(seed, day);
@@ -28,8 +30,6 @@ World buildWorld(const std::string& world, std::uint32_t seed, int day) {
   if (world == "field") return buildField(seed, day);
   throw urban_nav_core::UserError("world", "\"" + world + "\"", urban_nav_core::joined(worldNames()));
 }
-
-namespace {
 
 std::vector<Route> fastRoutes(const std::string& world, std::uint32_t seed) {
   if (world == "quad") return routesOfQuad(seed);
@@ -52,6 +52,12 @@ Route creeping(const Route& route) {
 }
 
 }  // namespace
+
+World buildWorld(const std::string& world, std::uint32_t seed, int day, Light light) {
+  World built = buildByDay(world, seed, day);
+  built.day = makeDay(seed, day, light);
+  return built;
+}
 
 std::vector<Route> worldRoutes(const std::string& world, std::uint32_t seed) {
   std::vector<Route> routes = fastRoutes(world, seed);

@@ -36,6 +36,18 @@ struct Waypoint {
   double pause = 0.0;                                  ///< s that the robot rests at it
 };
 
+/// An electric light, at its place whether it burns or not. It has no geometry of its own.
+struct Lamp {
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();   ///< m, in `world`
+  Eigen::Vector3f intensity = Eigen::Vector3f::Zero();  ///< radiance of a white surface 1 m below it that faces it, RGB
+};
+
+/// A window of a house, by the first corner of its pane.
+struct Window {
+  Eigen::Vector3f corner = Eigen::Vector3f::Zero();  ///< m, in `world`; the first vertex of its triangles
+  std::uint32_t house = 0;                           ///< number of the house
+};
+
 /// A world for one seed and one day. `world`: z up, z = 0 near the start of the robot, the same on all days. Immutable
 /// once built, so thread-safe.
 struct World {
@@ -44,6 +56,8 @@ struct World {
   std::vector<Material> materials;
   std::vector<Part> parts;
   std::vector<Mover> movers;
+  std::vector<Lamp> lamps;
+  std::vector<Window> windows;
   std::function<double(double x, double y)> ground;  ///< height (m) of the drivable ground; twice differentiable
 };
 
@@ -59,7 +73,7 @@ std::vector<std::string> worldNames();
 std::vector<std::string> townNames();
 /// Returns the routes of a world. `world` is one of worldNames().
 std::vector<Route> worldRoutes(const std::string& world, std::uint32_t seed);
-/// `day`: 1, 2, ...: the same static world with other weather, vehicles and people.
-World buildWorld(const std::string& world, std::uint32_t seed, int day);
+/// `day`: 1, 2, ...: the same static world with other weather, vehicles and people. `light` changes Day only.
+World buildWorld(const std::string& world, std::uint32_t seed, int day, Light light = Light::Day);
 
 }  // namespace urban_nav_sim

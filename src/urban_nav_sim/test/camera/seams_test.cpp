@@ -93,7 +93,7 @@ TEST_F(SeamsOfAPicture, EndAtItsBorders) {
 TEST_F(SeamsOfAPicture, OfAShadowComeFirst) {
   Traces traces = flat();
   traces.met[2 * kWidth + 2] = met(kAbove);
-  traces.sunlit[2 * kWidth + 4] = 1;
+  traces.shadows[2 * kWidth + 4] = 1;
   EXPECT_EQ(classify(traces), "......\n.eesss\n.eesss\n.eesss\n");
 }
 

@@ -24,6 +24,7 @@ TEST(SimulatorParameters, TheirDefaultsAreThoseOfTheCommand) {
   EXPECT_EQ(options.route, standard.route);
   EXPECT_EQ(options.seed, standard.seed);
   EXPECT_EQ(options.day, standard.day);
+  EXPECT_EQ(options.light, standard.light);
   EXPECT_EQ(options.duration, standard.duration);
   EXPECT_EQ(options.sensors, standard.sensors);
   EXPECT_TRUE(options.faults.empty());
@@ -74,6 +75,9 @@ TEST(SimulatorParameters, WhatThereIsNotIsNamedWithItsKeyAndWhatThereIs) {
   const std::string route = errorMessage(&SimulatorParameters::route, "moonwalk");
   expectIn(route, "/simulator/route");
   expectIn(route, "orbits4");
+  const std::string light = errorMessage(&SimulatorParameters::light, "dawn");
+  expectIn(light, "/simulator/light");
+  expectIn(light, "day, dusk, night");
   const std::string sensors = errorMessage(&SimulatorParameters::sensors, "stereo, sonar");
   expectIn(sensors, "/simulator/sensors");
   expectIn(sensors, "sonar");

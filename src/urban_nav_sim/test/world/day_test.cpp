@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace urban_nav_sim {
 namespace {
 
@@ -28,6 +30,24 @@ TEST(Day, TheFirstIsFineAndTheNextIsOther) {
     EXPECT_EQ(first.wet, 0.0F);
     EXPECT_EQ(first.leaves, 1.0F);
     EXPECT_LT(first.to_sun.dot(second.to_sun), 0.95F);
+  }
+}
+
+TEST(Day, HasALowWarmSunAtDuskAndNoneAtNight) {
+  for (const int number : {1, 2, 3, 4}) {
+    const Day day = makeDay(7, number), dusk = makeDay(7, number, Light::Dusk),
+              night = makeDay(7, number, Light::Night);
+    EXPECT_NEAR(std::asin(dusk.to_sun.z()) * 180.0F / static_cast<float>(M_PI), 3.0F, 0.01F);
+    EXPECT_NEAR(dusk.to_sun.norm(), 1.0F, 1e-5F);
+    EXPECT_GT(dusk.sun.x(), 2.0F * dusk.sun.z());
+    EXPECT_EQ(night.sun.maxCoeff(), 0.0F);
+    EXPECT_GT(day.sky.minCoeff(), 10.0F * dusk.sky.maxCoeff());
+    EXPECT_GT(dusk.sky.minCoeff(), 1000.0F * night.sky.maxCoeff());
+    for (const Day& other : {dusk, night}) {
+      EXPECT_EQ(other.wet, day.wet);
+      EXPECT_EQ(other.leaves, day.leaves);
+      EXPECT_EQ(other.clouds, day.clouds);
+    }
   }
 }
 
