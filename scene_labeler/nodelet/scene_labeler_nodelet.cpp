@@ -3,8 +3,6 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
-#include <sensor_msgs/PointCloud2.h>
-#include <sensor_msgs/point_cloud2_iterator.h>
 #include <urban_nav_msgs/CorrectLabel.h>
 #include <urban_nav_msgs/FileCommand.h>
 #include <pluginlib/class_list_macros.hpp>
@@ -14,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <tuple>
 #include <variant>
@@ -26,10 +25,12 @@
 #include "urban_nav_live/beam_faults.hpp"
 #include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/label_cloud.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
 #include "urban_nav_ros/recorded_image.hpp"
 #include "urban_nav_ros/robot_topics.hpp"
 #include "urban_nav_ros/stage_nodelet.hpp"
+#include "urban_nav_ros/sweep_feeds.hpp"
 #include "urban_nav_ros/topics.hpp"
 
 namespace scene_labeler {
@@ -54,35 +55,17 @@ struct CameraCalibration {
   sensor_msgs::CameraInfoConstPtr info;
 };
 
-sensor_msgs::PointCloud2 toMessage(const std::vector<DriveReturn>& returns, const SceneLabels& labels) {
-  sensor_msgs::PointCloud2 cloud;
-  sensor_msgs::PointCloud2Modifier modifier(cloud);
-  modifier.setPointCloud2Fields(6, "x", 1, sensor_msgs::PointField::FLOAT32, "y", 1, sensor_msgs::PointField::FLOAT32,
-                                "z", 1, sensor_msgs::PointField::FLOAT32, "probability", 1,
-                                sensor_msgs::PointField::FLOAT32, "label", 1, sensor_msgs::PointField::UINT8, "unsure",
-                                1, sensor_msgs::PointField::UINT8);
-  modifier.resize(returns.size());
-  sensor_msgs::PointCloud2Iterator<float> x(cloud, "x"), probability(cloud, "probability");
-  sensor_msgs::PointCloud2Iterator<std::uint8_t> label(cloud, "label"), unsure(cloud, "unsure");
-  for (std::size_t i = 0; i < returns.size(); ++i, ++x, ++probability, ++label, ++unsure) {
-    for (int axis = 0; axis < 3; ++axis) x[axis] = returns[i].point[axis];
-    *probability = labels.probability(i);
-    *label = static_cast<std::uint8_t>(labels.labels[i]);
-    *unsure = labels.unsure[i];
-  }
-  return cloud;
-}
-
 }  // namespace
 
-/// Publishes labels/image and labels/cloud from lasers, side cameras and odometry.
+/// Publishes labels/image and labels/cloud from lasers, 3D LiDARs, side cameras and odometry.
 class SceneLabelerStage {
  public:
   static constexpr const char* name = "scene_labeler";
   static constexpr const char* topic = "labels";
   using Input = std::variant<urban_nav_ros::ImageInput, urban_nav_ros::InfoInput, tf2_msgs::TFMessageConstPtr,
-                             sensor_msgs::LaserScanConstPtr, urban_nav_core::StampedPose, urban_nav_core::SessionStep,
-                             CameraImage, ClassImage, CameraCalibration, geometry_msgs::PointStampedConstPtr>;
+                             sensor_msgs::LaserScanConstPtr, sensor_msgs::PointCloud2ConstPtr,
+                             urban_nav_core::StampedPose, urban_nav_core::SessionStep, CameraImage, ClassImage,
+                             CameraCalibration, geometry_msgs::PointStampedConstPtr>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
   explicit SceneLabelerStage(Node& node);
@@ -99,9 +82,13 @@ class SceneLabelerStage {
   /// Returns whether scans and images are processed.
   bool isWanted() const { return nodelet_.always || image_.getNumSubscribers() + cloud_.getNumSubscribers() > 0; }
   void addScan(const sensor_msgs::LaserScan& message);
+  void addSweep(const std::string& frame, const urban_nav_core::Sweep& sweep);
+  /// Returns the mounting of a sensor; nullopt, with a fault, if tf does not have it.
+  std::optional<urban_nav_core::Pose> findPlace(const std::string& frame);
   void addClasses(const sensor_msgs::Image& message);
   void calibrate(const CameraCalibration& calibration);
   LiveLabels::Outputs outputs();
+  void publish(sensor_msgs::PointCloud2& cloud, urban_nav_core::StampNs stamp);
   void advertiseServices();
   std::string correct(const std::string& label);
   void adoptTaughtModel();
@@ -110,6 +97,9 @@ class SceneLabelerStage {
   NodeletParameters nodelet_;
   std::unique_ptr<LiveLabels> labels_;
   urban_nav_ros::StaticTransforms transforms_;
+  urban_nav_ros::SweepFeeds sweeps_{
+      {[this](const std::string& frame, const urban_nav_core::Sweep& sweep) { addSweep(frame, sweep); },
+       [this] { node_.gate().countInvalid(); }}};
   std::array<std::string, 2> camera_frames_;
   ros::Publisher image_, cloud_;
   std::map<std::string, std::string> faults_;  // keyed by the frame of a camera or laser
@@ -128,8 +118,7 @@ SceneLabelerStage::SceneLabelerStage(Node& node) : node_(node) {
   node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
   LabelModel model = readModel(parameters.model);
   thresholds_ = thresholdNote(model.sure, parameters.precision, parameters.model);
-  if (thresholds_.empty())
-    thresholds_ = urban_nav_core::printNumber(model.sure.rowFor(parameters.precision).least);
+  if (thresholds_.empty()) thresholds_ = urban_nav_core::printNumber(model.sure.rowFor(parameters.precision).least);
   labels_ = std::make_unique<LiveLabels>(parameters, std::move(model), outputs());
   image_ = node.nh().advertise<sensor_msgs::Image>(urban_nav_ros::topics::kLabelImage, 10);
   cloud_ = node.nh().advertise<sensor_msgs::PointCloud2>(urban_nav_ros::topics::kLabelCloud, 10);
@@ -203,13 +192,25 @@ void SceneLabelerStage::subscribeCamera(std::size_t side) {
                                                 });
 }
 
+void SceneLabelerStage::publish(sensor_msgs::PointCloud2& cloud, urban_nav_core::StampNs stamp) {
+  cloud.header.frame_id = nodelet_.odom_frame;
+  cloud.header.stamp = urban_nav_ros::toRosTime(stamp);
+  cloud_.publish(cloud);
+}
+
 LiveLabels::Outputs SceneLabelerStage::outputs() {
   LiveLabels::Outputs outputs;
   outputs.cloud = [this](const std::vector<DriveReturn>& returns, const SceneLabels& labels) {
-    sensor_msgs::PointCloud2 cloud = toMessage(returns, labels);
-    cloud.header.frame_id = nodelet_.odom_frame;
-    cloud.header.stamp = urban_nav_ros::toRosTime(returns.back().scan);
-    cloud_.publish(cloud);
+    urban_nav_ros::LabelCloud cloud(returns.size());
+    for (std::size_t i = 0; i < returns.size(); ++i) cloud.add(returns[i].point, labels, i);
+    publish(cloud.message(), returns.back().scan);
+  };
+  outputs.sweep = [this](urban_nav_core::StampNs reference, const auto& returns, const SweepLabels& labels) {
+    urban_nav_ros::LabelCloud cloud(labels.answered());
+    for (std::size_t i = 0; i < returns.size(); ++i)
+      if (const std::uint32_t row = labels.answer_of_return[i]; row != SweepLabels::kNoAnswer)
+        cloud.add(returns[i].p, labels.answers, row);
+    publish(cloud.message(), reference);
   };
   outputs.image = [this](std::size_t side, const DriveFrame& frame, const cv::Mat& classes) {
     if (classes.empty()) return;
@@ -224,6 +225,8 @@ LiveLabels::Outputs SceneLabelerStage::outputs() {
 void SceneLabelerStage::handle(Input& input) {
   if (const auto* transforms = std::get_if<tf2_msgs::TFMessageConstPtr>(&input)) return transforms_.add(**transforms);
   if (const auto* scan = std::get_if<sensor_msgs::LaserScanConstPtr>(&input)) return addScan(**scan);
+  if (const auto* cloud = std::get_if<sensor_msgs::PointCloud2ConstPtr>(&input); cloud != nullptr && isWanted())
+    return sweeps_.add(*cloud);
   if (const auto* pose = std::get_if<urban_nav_core::StampedPose>(&input)) {
     last_pose_ = std::chrono::steady_clock::now();
     return labels_->addPose(*pose);
@@ -249,15 +252,24 @@ void SceneLabelerStage::addScan(const sensor_msgs::LaserScan& message) {
   if (!isWanted()) return;
   beams_.add(*planar);
   const std::string& frame = message.header.frame_id;
-  const auto T_base_laser = transforms_.lookup(nodelet_.base_frame, frame);
-  if (!T_base_laser) {
-    faults_[frame] = "no static tf from " + nodelet_.base_frame + " to " + frame;
-    return;
-  }
-  faults_.erase(frame);
+  const auto T_base_laser = findPlace(frame);
+  if (!T_base_laser) return;
   const std::size_t side = T_base_laser->t().y() >= 0.0 ? 0 : 1;  // REP-103: y to the left
   if (!labels_->hasLaser(side)) labels_->setLaser(side, *T_base_laser);
   labels_->addScan(side, *planar);
+}
+
+std::optional<urban_nav_core::Pose> SceneLabelerStage::findPlace(const std::string& frame) {
+  const auto T_base_sensor = transforms_.lookup(nodelet_.base_frame, frame);
+  if (T_base_sensor) faults_.erase(frame);
+  else faults_[frame] = "no static tf from " + nodelet_.base_frame + " to " + frame;
+  return T_base_sensor;
+}
+
+void SceneLabelerStage::addSweep(const std::string& frame, const urban_nav_core::Sweep& sweep) {
+  if (!labels_->hasLidar(frame))
+    if (const auto T_base_lidar = findPlace(frame)) labels_->placeLidar(frame, *T_base_lidar);
+  if (labels_->hasLidar(frame)) labels_->addSweep(frame, sweep);
 }
 
 void SceneLabelerStage::addClasses(const sensor_msgs::Image& message) {
@@ -273,16 +285,12 @@ void SceneLabelerStage::addClasses(const sensor_msgs::Image& message) {
 void SceneLabelerStage::calibrate(const CameraCalibration& calibration) {
   if (labels_->hasCamera(calibration.side)) return;
   const std::string& frame = calibration.info->header.frame_id;
-  const auto T_base_camera = transforms_.lookup(nodelet_.base_frame, frame);
-  if (!T_base_camera) {
-    faults_[frame] = "no static tf from " + nodelet_.base_frame + " to " + frame;
-    return;
-  }
+  const auto T_base_camera = findPlace(frame);
+  if (!T_base_camera) return;
   try {
     const auto raw = urban_nav_core::rawCamera(urban_nav_ros::toCameraInfo(*calibration.info), frame);
     labels_->setCamera(calibration.side, {raw, *T_base_camera});
     camera_frames_[calibration.side] = frame;
-    faults_.erase(frame);
   } catch (const urban_nav_core::UserError& error) {
     faults_[frame] = error.what();
   }
@@ -291,9 +299,10 @@ void SceneLabelerStage::calibrate(const CameraCalibration& calibration) {
 bool SceneLabelerStage::idle() {
   adoptTaughtModel();
   if (std::chrono::steady_clock::now() - last_pose_ >= kPosePatience) labels_->catchUp();
+  const bool has_labelled = labels_->labelSweep();
   const urban_nav_live::StageReport now = report();
   node_.publishStatus(now.status, now.reason_name, labels_->newest());
-  if (!labels_->teaching().isTraining()) return false;
+  if (has_labelled || !labels_->teaching().isTraining()) return has_labelled;
   std::this_thread::sleep_for(kTrainingPoll);  // polls progress and the retrained model without waiting for an input
   return true;
 }
@@ -316,22 +325,15 @@ urban_nav_live::StageReport SceneLabelerStage::report() const {
     report.reason_name = reason_name;
   };
   set(1, "NoOdometry", odometry);
-  set(2, "NoLasers", lasers);
+  const LiveLabels::Counts counts = labels_->counts();
+  if (counts.sweeps.sweeps == 0) set(2, "NoLasers", lasers);
   if (!faults_.empty()) set(3, "NoPlace", faults_.begin()->second);
   set(4, "NotTaught", taught_fault_);
-  const LiveLabels::Counts counts = labels_->counts();
   set(5, "UpsideDown", counts.upside_down_frames == 0 ? "" : "a side camera appears to be mounted upside down");
-  report.add("scans", counts.scans);
-  report.add("images", counts.images);
-  report.add("poses of odometry", counts.poses);
-  report.add("scans and images dropped without odometry", counts.dropped);
+  set(2, "NoLasers", sweeps_.fault());
+  set(6, "TooSlow", labels_->sweepFault());
   report.add("probability of sure labels", thresholds_);
-  report.add("frames labelled", counts.frames);
-  report.add("of these with an image", counts.imaged_frames);
-  report.add("of these with a class image", counts.class_frames);
-  report.add("of these in a kind of place without training data", counts.new_place_frames);
-  report.add("black or saturated images", counts.blind_frames);
-  report.add("drives", counts.drives);
+  counts.addTo(report);
   beams_.addTo(report);
   const LiveTeaching& teaching = labels_->teaching();
   report.add("corrections", teaching.corrections());

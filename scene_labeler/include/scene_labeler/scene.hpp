@@ -27,7 +27,8 @@ struct SceneView {
 struct Scene {
   std::string name;
   std::vector<Eigen::Vector3f> points;  ///< m, z up; points that are not finite are not labelled
-  std::vector<float> reflectance;       ///< one per point, in units of its device; empty if unavailable
+  std::vector<float> reflectance;       ///< one per point, in units of its device, NaN for unknown ones; empty if
+                                        ///< unavailable
   /// One per point, m: vector to the sensor that measured it. Features then use the reflectance normalised for range
   /// and incidence. Empty: the reflectance is used as it is.
   std::vector<Eigen::Vector3f> to_sensor;

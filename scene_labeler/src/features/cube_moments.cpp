@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "features/cube_moments.hpp"
 
+#include <cmath>
+#include <limits>
+
 namespace scene_labeler {
 
 using urban_nav_registration::Cell;
@@ -18,15 +21,25 @@ void Moments::add(const Moments& other) {
   count += other.count;
 }
 
+void Moments::subtract(const Moments& other) {
+  sum -= other.sum;
+  outer -= other.outer;
+  count -= other.count;
+}
+
 Eigen::Matrix3d Moments::covariance() const {
   const Eigen::Vector3d centre = mean();
   return outer / count - centre * centre.transpose();
 }
 
+Cell cellOfKey(std::uint64_t key) {
+  const auto part = [key](unsigned shift) { return static_cast<int>(key >> shift & 0x1fffffU) - (1 << 20); };
+  return {part(0), part(21), part(42)};
+}
+
 namespace {
 
-std::uint32_t insertCube(CubeLevel& level, const Cell& cell) {
-  const std::uint64_t key = urban_nav_registration::toKey(cell);
+std::uint32_t insertCube(CubeLevel& level, std::uint64_t key) {
   const std::uint32_t cube = level.table.insert(key);
   if (cube == level.cubes.size()) {
     level.cubes.emplace_back();
@@ -35,18 +48,9 @@ std::uint32_t insertCube(CubeLevel& level, const Cell& cell) {
   return cube;
 }
 
-Cell cellOfKey(std::uint64_t key) {
-  const auto part = [key](unsigned shift) { return static_cast<int>(key >> shift & 0x1fffffU) - (1 << 20); };
-  return {part(0), part(21), part(42)};
-}
-
 /// Normalises each cube to the weight of one point.
 void normalise(CubeLevel& level) {
-  for (Moments& cube : level.cubes) {
-    cube.sum /= cube.count;
-    cube.outer /= cube.count;
-    cube.count = 1.0;
-  }
+  for (Moments& cube : level.cubes) cube = cube.normalised();
 }
 
 CubeLevel finestLevel(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& origin) {
@@ -59,7 +63,8 @@ CubeLevel finestLevel(const std::vector<Eigen::Vector3f>& points, const Eigen::V
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3f point = points[i] - origin;
     if (!point.allFinite() || !(point.cwiseAbs().maxCoeff() < limit)) continue;
-    const std::uint32_t cube = insertCube(level, urban_nav_registration::toCell(point, per_m));
+    const std::uint32_t cube =
+        insertCube(level, urban_nav_registration::toKey(urban_nav_registration::toCell(point, per_m)));
     level.cube_of[i] = cube;
     level.cubes[cube].add(point.cast<double>(), 1.0);
   }
@@ -73,8 +78,7 @@ CubeLevel coarserLevel(const CubeLevel& finer) {
   level.table = CellTable(finer.cubes.size() / 2 + 16);
   std::vector<std::uint32_t> coarse_of(finer.cubes.size());
   for (std::size_t i = 0; i < finer.cubes.size(); ++i) {
-    const Cell cell = cellOfKey(finer.keys[i]);
-    coarse_of[i] = insertCube(level, {cell.x >> 1, cell.y >> 1, cell.z >> 1});
+    coarse_of[i] = insertCube(level, coarserKey(finer.keys[i]));
     level.cubes[coarse_of[i]].add(finer.cubes[i]);
   }
   level.cube_of.reserve(finer.cube_of.size());
@@ -85,6 +89,11 @@ CubeLevel coarserLevel(const CubeLevel& finer) {
 }
 
 }  // namespace
+
+std::uint64_t coarserKey(std::uint64_t key) {
+  const Cell cell = cellOfKey(key);
+  return urban_nav_registration::toKey({cell.x >> 1, cell.y >> 1, cell.z >> 1});
+}
 
 CubeLevels makeCubeLevels(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& origin) {
   CubeLevels levels;
@@ -103,18 +112,19 @@ std::vector<float> meanOverCubes(const CubeLevels& levels, std::size_t level, co
   };
   std::vector<Mean> means(levels[0].cubes.size());
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (levels[0].cube_of[i] != CellTable::kNone) means[levels[0].cube_of[i]].add(values[i]);
+    if (levels[0].cube_of[i] != CellTable::kNone && !std::isnan(values[i])) means[levels[0].cube_of[i]].add(values[i]);
   for (std::size_t next = 1; next <= level; ++next) {
     std::vector<std::uint32_t> parents(levels[next - 1].cubes.size());
     for (std::size_t i = 0; i < values.size(); ++i)
       if (levels[next].cube_of[i] != CellTable::kNone) parents[levels[next - 1].cube_of[i]] = levels[next].cube_of[i];
     std::vector<Mean> coarser(levels[next].cubes.size());
     for (std::size_t cube = 0; cube < parents.size(); ++cube)
-      coarser[parents[cube]].add(means[cube].sum / means[cube].count);
+      if (means[cube].count > 0.0F) coarser[parents[cube]].add(means[cube].sum / means[cube].count);
     means = std::move(coarser);
   }
   std::vector<float> result;
-  for (const Mean& mean : means) result.push_back(mean.sum / mean.count);
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  for (const Mean& mean : means) result.push_back(mean.count > 0.0F ? mean.sum / mean.count : kNan);
   return result;
 }
 

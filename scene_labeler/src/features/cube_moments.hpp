@@ -18,6 +18,9 @@ struct Moments {
 
   void add(const Eigen::Vector3d& point, double weight);
   void add(const Moments& other);
+  void subtract(const Moments& other);
+  /// Returns the moments with the weight of one point.
+  Moments normalised() const { return {sum / count, outer / count, 1.0}; }
   Eigen::Vector3d mean() const { return sum / count; }
   Eigen::Matrix3d covariance() const;
 };
@@ -39,11 +42,16 @@ constexpr float kFinestCube = 0.1F;  ///< m
 
 using CubeLevels = std::array<CubeLevel, kShapeLevels>;
 
+/// Returns the cell of a key.
+urban_nav_registration::Cell cellOfKey(std::uint64_t key);
+/// Returns the key of the cube of the next level that contains the cube of a key.
+std::uint64_t coarserKey(std::uint64_t key);
+
 /// Assigns points to cubes of all levels, relative to `origin`.
 CubeLevels makeCubeLevels(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& origin);
 
 /// Returns the mean of values over each cube of a level, in which each of the next smaller cubes has equal weight.
-/// `values`: one per point.
+/// `values`: one per point; NaN values are ignored, and the mean of a cube without others is NaN.
 std::vector<float> meanOverCubes(const CubeLevels& levels, std::size_t level, const std::vector<float>& values);
 
 /// Calls take(cube) for a cube and each of its existing neighbours, up to 26.

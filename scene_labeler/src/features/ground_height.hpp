@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "features/cube_moments.hpp"
@@ -18,7 +19,45 @@ struct ColumnHeights {
   float filled = 0.0F;         ///< share of the cubes of 0.2 m between the lowest and the highest return of the square
 };
 
-/// Computes the heights around every cube of the level of 0.2 m.
+constexpr std::size_t kHeightLevel = 1;   ///< level of the cubes from which heights are computed: 0.2 m
+constexpr std::size_t kHeightValues = 6;  ///< features
+
+/// Writes the kHeightValues features.
+void writeHeights(const ColumnHeights& heights, float* out);
+
+/// Columns of 0.5 m with the lowest and highest of their cubes. Cubes can be added and can move.
+class ColumnGrid {
+ public:
+  /// Heights of the lower envelope at a column.
+  struct Surrounding {
+    float ground = 0.0F, low_1 = 0.0F, low_3 = 0.0F, high_1 = 0.0F;
+  };
+
+  explicit ColumnGrid(std::size_t expected = 16) : table_(expected), coarse_table_(expected / 8 + 16) {}
+
+  /// Adds the mean of a cube. Returns the number of its column.
+  std::uint32_t add(const Eigen::Vector3f& mean);
+  /// Extends a column to the new mean of one of its cubes.
+  void extend(std::uint32_t column, float z);
+  std::size_t size() const { return columns_.size(); }
+
+  Surrounding measureSurrounding(std::uint32_t column) const;
+  /// Returns the heights at `z` in a column. `edge`: of the cubes.
+  ColumnHeights measureHeights(std::uint32_t column, const Surrounding& around, float z, float edge) const;
+
+ private:
+  struct Column {
+    int x = 0, y = 0;
+    float low = 0.0F, high = 0.0F;
+    float cubes = 0.0F;
+  };
+
+  urban_nav_registration::CellTable table_, coarse_table_;
+  std::vector<Column> columns_;
+  std::vector<std::uint32_t> lowest_;  // column of each square of four by four; the first of equal ones
+};
+
+/// Computes the heights around every cube of the height level.
 std::vector<ColumnHeights> measureHeights(const CubeLevel& level);
 
 }  // namespace scene_labeler

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "features/shape_features.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "features/cube_moments.hpp"
+#include "features/cube_shape.hpp"
 #include "features/ground_height.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/laser/reflectance.hpp"
@@ -16,48 +16,7 @@ namespace {
 
 using urban_nav_registration::CellTable;
 
-constexpr float kLeastPlanarity = 0.4F;  // least value of a surface with a normal
-
-/// Shape of the cubes around a cube; missing with fewer than `kLeastCubes`.
-struct CubeShape {
-  bool is_known = false;
-  float linearity = 0.0F, planarity = 0.0F, scatter = 0.0F;  // from deviations l1 >= l2 >= l3
-  float normal_z = 0.0F, tangent_z = 0.0F;                   // absolute
-  float roughness = 0.0F;                                    // deviation along the normal, m
-  float vertical = 0.0F;                                     // deviation in height, relative to the edge
-  float occupied = 0.0F;                                     // share of the 27 cubes
-  Eigen::Vector3f mean = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::UnitZ();
-
-  bool isPlane() const { return is_known && planarity > kLeastPlanarity; }
-};
-
-constexpr double kLeastCubes = 3.0;
-constexpr std::size_t kShapeValues = 10;  // per level
-constexpr std::size_t kHeightLevel = 1, kReflectanceLevel = 1, kPaperLevel = 2;
-
-CubeShape shapeAround(const CubeLevel& level, std::size_t cube) {
-  Moments all;
-  forEachNeighbour(level, level.keys[cube], [&](std::uint32_t other) { all.add(level.cubes[other]); });
-  CubeShape shape;
-  shape.occupied = static_cast<float>(all.count / 27.0);
-  shape.mean = all.mean().cast<float>();
-  if (all.count < kLeastCubes) return shape;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(all.covariance());
-  const Eigen::Vector3d deviation = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();  // ascending
-  const double longest = deviation[2];
-  if (!(longest > 1e-6)) return shape;
-  shape.is_known = true;
-  shape.linearity = static_cast<float>((longest - deviation[1]) / longest);
-  shape.planarity = static_cast<float>((deviation[1] - deviation[0]) / longest);
-  shape.scatter = static_cast<float>(deviation[0] / longest);
-  shape.normal = eigen.eigenvectors().col(0).cast<float>();
-  shape.normal_z = std::abs(shape.normal.z());
-  shape.tangent_z = static_cast<float>(std::abs(eigen.eigenvectors()(2, 2)));
-  shape.roughness = static_cast<float>(deviation[0]);
-  shape.vertical = static_cast<float>(std::sqrt(std::max(all.covariance()(2, 2), 0.0))) / level.edge;
-  return shape;
-}
+constexpr std::size_t kReflectanceLevel = 1;
 
 std::vector<CubeShape> measureShapes(const CubeLevel& level) {
   std::vector<CubeShape> shapes(level.cubes.size());
@@ -69,20 +28,7 @@ void writeLevel(const CubeLevel& level, const std::vector<CubeShape>& shapes, co
                 const Eigen::Vector3f& origin, std::size_t first, FeatureTable& table) {
   urban_nav_core::forEach(scene.points.size(), 4096, [&](std::size_t i) {
     if (level.cube_of[i] == CellTable::kNone) return;
-    const CubeShape& shape = shapes[level.cube_of[i]];
-    float* out = table.row(i) + first;
-    const Eigen::Vector3f offset = scene.points[i] - origin - shape.mean;
-    out[8] = shape.occupied;
-    out[9] = offset.z() / level.edge;
-    if (!shape.is_known) return;
-    out[0] = shape.linearity;
-    out[1] = shape.planarity;
-    out[2] = shape.scatter;
-    out[3] = shape.normal_z;
-    out[4] = shape.tangent_z;
-    out[5] = shape.roughness;
-    out[6] = shape.vertical;
-    out[7] = std::abs(shape.normal.dot(offset)) / level.edge;
+    writeShape(shapes[level.cube_of[i]], scene.points[i] - origin, level.edge, table.row(i) + first);
   });
 }
 
@@ -90,17 +36,9 @@ void writeHeights(const CubeLevel& level, std::size_t first, FeatureTable& table
   const std::vector<ColumnHeights> heights = measureHeights(level);
   for (std::size_t i = 0; i < level.cube_of.size(); ++i) {
     if (level.cube_of[i] == CellTable::kNone) continue;
-    const ColumnHeights& column = heights[level.cube_of[i]];
-    float* out = table.row(i) + first;
-    out[0] = column.over_ground;
-    out[1] = column.over_lowest_1;
-    out[2] = column.over_lowest_3;
-    out[3] = column.below_highest;
-    out[4] = column.column_extent;
-    out[5] = column.filled;
+    writeHeights(heights[level.cube_of[i]], table.row(i) + first);
   }
 }
-constexpr std::size_t kHeightValues = 6;
 
 /// Returns the reflectance normalised for range and incidence where the sensor's position is known.
 std::vector<float> normalisedReflectance(const Scene& scene, const CubeLevel& level,
@@ -127,6 +65,7 @@ void writeReflectance(const CubeLevels& levels, const std::vector<float>& reflec
   urban_nav_core::forEach(level.cubes.size(), 512, [&](std::size_t cube) {
     float sum = 0.0F, square = 0.0F, count = 0.0F;
     forEachNeighbour(level, level.keys[cube], [&](std::uint32_t other) {
+      if (std::isnan(of_cubes[other])) return;
       sum += of_cubes[other];
       square += of_cubes[other] * of_cubes[other];
       count += 1.0F;

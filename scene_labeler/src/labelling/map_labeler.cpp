@@ -35,7 +35,7 @@ MapLabeler::MapLabeler(const LabelModel& model, const Options& options, std::vec
       frequencies_(model),
       next_row_(std::numeric_limits<int>::min()) {}
 
-void MapLabeler::addPoints(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& reflectance) {
+void MapLabeler::addPoints(const std::vector<Eigen::Vector3f>& points, const std::vector<float>& reflectance) {
   for (std::size_t i = 0; i < points.size(); ++i, ++next_point_) {
     if (!points[i].allFinite()) {
       callbacks_.take_label(next_point_, {});
@@ -66,11 +66,14 @@ std::vector<MapLabeler::Member> MapLabeler::pointsAround(const Square& middle, i
 
 Scene MapLabeler::makeScene(const std::vector<Member>& members) {
   Scene scene;
-  scene.device = kLms291Device;
+  bool is_known = false;
   for (const Member& member : members) {
     scene.points.push_back(member.point());
-    scene.reflectance.push_back(static_cast<float>(member.square->reflectance[member.index]));
+    scene.reflectance.push_back(member.square->reflectance[member.index]);
+    is_known = is_known || !std::isnan(scene.reflectance.back());
   }
+  if (is_known) scene.device = kLms291Device;
+  else scene.reflectance.clear();
   return scene;
 }
 

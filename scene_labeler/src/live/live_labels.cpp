@@ -31,13 +31,15 @@ LiveLabels::LiveLabels(const Parameters& parameters, LabelModel model, Outputs o
     : parameters_(parameters),
       model_(withPrecision(std::move(model), parameters.precision)),
       teaching_(parameters, model_),
-      outputs_(std::move(outputs)) {
+      outputs_(std::move(outputs)),
+      sweeps_(trajectory_, outputs_.sweep) {
   reset();
 }
 
 void LiveLabels::reset() {
   clear();
   counts_ = {};
+  sweeps_.forgetCounts();
   sortByRound();
 }
 
@@ -67,6 +69,7 @@ void LiveLabels::clear() {
     side.images.clear();
     side.classes.clear();
   }
+  sweeps_.clear();
   path_.reset();
   trajectory_ = {};
   path_ = std::make_unique<TravelledPath>(trajectory_);
@@ -83,6 +86,7 @@ bool LiveLabels::adoptTaughtModel() {
     side.window.reset();
     side.labeler.reset();
   }
+  sweeps_.clear();
   model_ = withPrecision(std::move(*taught), parameters_.precision);
   return true;
 }
@@ -115,6 +119,12 @@ void LiveLabels::take(std::size_t side, const urban_nav_core::PlanarScan& scan) 
     sides_[side].scans.pop_front();
     ++counts_.dropped;
   }
+}
+
+void LiveLabels::addSweep(const std::string& frame, urban_nav_core::Sweep sweep) {
+  const StampNs stamp = sweep.reference;
+  rounds_->add(kSweepStream, stamp,
+               [this, frame, sweep = std::move(sweep)]() mutable { sweeps_.add(frame, std::move(sweep)); });
 }
 
 void LiveLabels::addImage(std::size_t side, StampNs stamp, Decode decode) {
@@ -179,9 +189,29 @@ void LiveLabels::work(std::size_t number) {
   }
 }
 
+void LiveLabels::Counts::addTo(urban_nav_live::StageReport& report) const {
+  report.add("scans", scans);
+  report.add("images", images);
+  report.add("poses of odometry", poses);
+  report.add("scans and images dropped without odometry", dropped);
+  report.add("frames labelled", frames);
+  report.add("of these with an image", imaged_frames);
+  report.add("of these with a class image", class_frames);
+  report.add("of these in a kind of place without training data", new_place_frames);
+  report.add("black or saturated images", blind_frames);
+  report.add("drives", drives);
+  report.add("sweeps", sweeps.sweeps);
+  report.add("sweeps labelled", sweeps.labelled);
+  report.add("sweeps in a kind of place without training data", sweeps.new_place);
+  report.add("sweeps dropped, faster than they are labelled", sweeps.too_many);
+  report.add("sweeps dropped without odometry", sweeps.unplaced);
+  report.add("time of the last sweep (ms)", sweeps.last_ms);
+}
+
 LiveLabels::Counts LiveLabels::counts() const {
   Counts counts = counts_;
   counts.dropped += static_cast<std::size_t>(rounds_->dropped());
+  counts.sweeps = sweeps_.counts();
   for (const LiveSide& side : sides_) count(side, counts);
   return counts;
 }

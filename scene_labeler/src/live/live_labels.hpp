@@ -8,17 +8,20 @@
 #include <memory>
 #include <optional>
 
+#include "live/live_sweeps.hpp"
 #include "live/live_teaching.hpp"
 #include "scene_labeler/drive/drive_labeler.hpp"
 #include "scene_labeler/drive/side_drive.hpp"
 #include "scene_labeler/parameters.hpp"
 #include "urban_nav_live/round_gate.hpp"
+#include "urban_nav_live/stage_report.hpp"
 
 namespace scene_labeler {
 
-/// Labels the returns of both side lasers while the robot drives: scans and images wait until odometry covers their
-/// time, and a return is labelled when the robot has left its surroundings. Odometry whose stamps jump back begins a
-/// new drive (urban_nav_live::RoundGate). Sides: 0 left, 1 right. Not thread-safe.
+/// Labels the returns of both side lasers and of 3D LiDARs while the robot drives: scans, sweeps and images wait until
+/// odometry covers their time. A return of a side laser is labelled when the robot has left its surroundings; a sweep,
+/// when labelSweep() is called. Odometry whose stamps jump back begins a new drive (urban_nav_live::RoundGate). Sides:
+/// 0 left, 1 right. Not thread-safe.
 class LiveLabels {
  public:
   /// Decodes an image on demand.
@@ -27,6 +30,7 @@ class LiveLabels {
   struct Outputs {
     DriveLabeler::TakeLabels cloud;
     std::function<void(std::size_t side, const DriveFrame& frame, const cv::Mat& classes)> image;
+    LiveSweeps::Take sweep = {};
   };
   /// Statistics for the operator.
   struct Counts {
@@ -35,6 +39,9 @@ class LiveLabels {
     std::size_t drives = 0;
     std::size_t frames = 0, imaged_frames = 0, blind_frames = 0, upside_down_frames = 0, class_frames = 0,
                 new_place_frames = 0;
+    LiveSweeps::Counts sweeps;
+
+    void addTo(urban_nav_live::StageReport& report) const;
   };
 
   LiveLabels(const Parameters& parameters, LabelModel model, Outputs outputs);
@@ -48,6 +55,16 @@ class LiveLabels {
 
   void addPose(const urban_nav_core::StampedPose& T_odom_base);
   void addScan(std::size_t side, urban_nav_core::PlanarScan scan);
+  void placeLidar(const std::string& frame, const urban_nav_core::Pose& T_base_lidar) {
+    sweeps_.place(frame, T_base_lidar);
+  }
+  bool hasLidar(const std::string& frame) const { return sweeps_.isPlaced(frame); }
+  /// Adds a sweep of a placed LiDAR.
+  void addSweep(const std::string& frame, urban_nav_core::Sweep sweep);
+  /// Labels the oldest waiting sweep that odometry covers. Returns whether it labelled one.
+  bool labelSweep() { return sweeps_.labelNext(model_, parameters_.superpixel); }
+  /// Returns a sentence if sweeps come faster than they are labelled; else empty.
+  std::string sweepFault() const { return sweeps_.fault(); }
   void addImage(std::size_t side, urban_nav_core::StampNs stamp, Decode decode);
   /// Adds a class image of another source (CV_8U, SceneClass), for the image with this stamp. If there is a class
   /// topic, images wait for theirs for at most 2 s.
@@ -85,8 +102,8 @@ class LiveLabels {
     std::unique_ptr<SideDrive> drive;
   };
   using Add = std::function<void()>;
-  enum Stream { kOdometryStream = 0, kScanStream = 1, kImageStream = 3, kClassStream = 5 };  // the last three once per
-                                                                                             // side
+  // Streams of scans, images and classes once per side.
+  enum Stream { kOdometryStream = 0, kScanStream = 1, kImageStream = 3, kClassStream = 5, kSweepStream = 7 };
   void sortByRound();
   /// Labels the remaining returns of the drive, and begins another one.
   void beginDrive();
@@ -106,6 +123,7 @@ class LiveLabels {
   urban_nav_core::Trajectory trajectory_;
   std::unique_ptr<TravelledPath> path_;
   std::array<LiveSide, 2> sides_;
+  LiveSweeps sweeps_;
   Counts counts_;
   std::unique_ptr<urban_nav_live::RoundGate<Add>> rounds_;
 };

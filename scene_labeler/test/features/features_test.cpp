@@ -137,5 +137,21 @@ TEST(Features, OfAnImageAreMissingWhereItIsSaturatedOrHidden) {
   for (std::size_t i = 0; i < table.rows(); i += 13) EXPECT_TRUE(std::isnan(featureAt(table, i, "light_7")));
 }
 
+TEST(Features, IgnoreTheReflectanceOfPointsThatHaveNone) {
+  Scene scene = makeBox();
+  scene.reflectance.assign(scene.points.size(), 80.0F);
+  for (std::size_t i = 0; i < scene.points.size(); i += 3) scene.reflectance[i] = std::nanf("");
+  const FeatureTable table = measureFeatures(scene, FeatureSet::All);
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    ASSERT_EQ(std::isnan(featureAt(table, i, "reflectance")), i % 3 == 0);
+    ASSERT_NEAR(featureAt(table, i, "reflectance_mean"), 80.0F, 1e-3F);
+    ASSERT_NEAR(featureAt(table, i, "reflectance_deviation"), 0.0F, 0.1F);
+  }
+  scene.reflectance.assign(scene.points.size(), std::nanf(""));
+  const FeatureTable without = measureFeatures(scene, FeatureSet::All);
+  for (std::size_t i = 0; i < scene.points.size(); i += 100)
+    ASSERT_TRUE(std::isnan(featureAt(without, i, "reflectance_mean")));
+}
+
 }  // namespace
 }  // namespace scene_labeler

@@ -50,7 +50,7 @@ LabelledYard labelPoints(std::vector<Eigen::Vector3f> points, std::vector<Placed
     while (end < points.size() && points[end].y() < row + 1.0F) ++end;
     labeler.addPoints(
         {points.begin() + static_cast<std::ptrdiff_t>(begin), points.begin() + static_cast<std::ptrdiff_t>(end)},
-        std::vector<std::uint8_t>(end - begin, 100));
+        std::vector<float>(end - begin, 100.0F));
     made.most_held = std::max(made.most_held, labeler.heldPoints());
     begin = end;
   }
@@ -89,7 +89,7 @@ TEST(MapLabeler, GivesNoLabelToPointsThatAreNotFinite) {
   MapLabeler::Callbacks callbacks;
   callbacks.take_label = [&](std::size_t, const PointLabel& label) { labels.push_back(label); };
   MapLabeler labeler(testing::trainOnYards(ClassifierKind::Boosted), MapLabeler::Options(), {}, callbacks);
-  labeler.addPoints({{std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F}}, {100});
+  labeler.addPoints({{std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F}}, {100.0F});
   labeler.finish();
   ASSERT_EQ(labels.size(), 1U);
   EXPECT_EQ(labels[0].label, SceneClass::None);

@@ -8,10 +8,10 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 #include <tf2_msgs/TFMessage.h>
+#include <unistd.h>
 #include <urban_nav_msgs/CorrectLabel.h>
 #include <urban_nav_msgs/FileCommand.h>
 #include <urban_nav_msgs/RelativePose.h>
-#include <unistd.h>
 #include <urban_nav_msgs/StageStatus.h>
 
 #include <cmath>
@@ -191,6 +191,82 @@ TEST(SceneLabelerNodelet, LabelsReturnsVisibleInTheCameraOfTheirSide) {
   ASSERT_TRUE(robot.call("reset"));
   robot.diagnostics.clear();  // those of the beginning had no frames either
   ASSERT_TRUE(StreetRobot::until([&] { return robot.diagnosed("frames labelled", "0"); }));
+}
+
+/// The robot with a 3D LiDAR in place of laser and camera: 16 rings of a degree, and a wall at y = 4.
+class LidarRobot : public urban_nav_ros::testing::Listener {
+ public:
+  LidarRobot() : Listener("scene_labeler") { keep("labels/cloud", clouds); }
+  static StampNs toStamp(int sweep) { return kStreetStart + (1000 + sweep) * 100'000'000LL; }
+
+  void drive(int sweeps) {
+    tf2_msgs::TFMessage message;
+    message.transforms.push_back(urban_nav_ros::toStaticTransform(
+        "base_link", "lidar", Pose(Eigen::Matrix3d::Identity(), Vector3d(0.0, 0.0, kHeight))));
+    EXPECT_TRUE(receipts_.await({{"/tf_static", 1}}, [&] { tf_static_.publish(message); }));
+    for (int i = 0; i < sweeps; ++i) {
+      nav_msgs::Odometry odometry;
+      odometry.header.stamp = urban_nav_ros::toRosTime(toStamp(i));
+      odometry.pose.pose = urban_nav_ros::toPoseMessage(Pose(Eigen::Matrix3d::Identity(), Vector3d(0.1 * i, 0.0, 0.0)));
+      EXPECT_TRUE(receipts_.await({{"odometry", 1}}, [&] { odometry_.publish(odometry); }));
+      EXPECT_TRUE(receipts_.await({{"points", 1}}, [&] { points_.publish(sweep(toStamp(i))); }));
+    }
+  }
+
+  std::vector<sensor_msgs::PointCloud2> clouds;
+
+ private:
+  static constexpr double kHeight = 1.5;  // m
+
+  static sensor_msgs::PointCloud2 sweep(StampNs end) {
+    sensor_msgs::PointCloud2 cloud;
+    cloud.header.stamp = urban_nav_ros::toRosTime(end);
+    cloud.header.frame_id = "lidar";
+    sensor_msgs::PointCloud2Modifier modifier(cloud);
+    using sensor_msgs::PointField;
+    modifier.setPointCloud2Fields(5, "x", 1, PointField::FLOAT32, "y", 1, PointField::FLOAT32, "z", 1,
+                                  PointField::FLOAT32, "time", 1, PointField::FLOAT32, "ring", 1, PointField::UINT16);
+    modifier.resize(16 * 360);
+    sensor_msgs::PointCloud2Iterator<float> x(cloud, "x"), time(cloud, "time");
+    sensor_msgs::PointCloud2Iterator<std::uint16_t> ring(cloud, "ring");
+    for (int column = 0; column < 360; ++column)
+      for (int i = 0; i < 16; ++i, ++x, ++time, ++ring) {
+        const double azimuth = M_PI - column * M_PI / 180.0, elevation = (i - 12) * M_PI / 180.0;
+        const Vector3d ray(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                           std::sin(elevation));
+        double range = 0.0;  // no return
+        if (ray.z() < 0.0) range = -kHeight / ray.z();
+        if (ray.y() > 0.0) range = range > 0.0 ? std::min(range, 4.0 / ray.y()) : 4.0 / ray.y();
+        for (int axis = 0; axis < 3; ++axis) x[axis] = static_cast<float>(range < 60.0 ? range * ray[axis] : 0.0);
+        *time = static_cast<float>(0.1 * (column / 360.0 - 1.0));
+        *ring = static_cast<std::uint16_t>(i);
+      }
+    return cloud;
+  }
+
+  const urban_nav_ros::testing::Receipts receipts_{"scene_labeler"};
+  ros::Publisher tf_static_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
+  ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("odometry");
+  ros::Publisher points_ = advertise<sensor_msgs::PointCloud2>("points");
+};
+
+TEST(SceneLabelerNodelet, LabelsTheSweepsOfALidar) {
+  constexpr int kSweeps = 30;
+  LidarRobot robot;
+  ASSERT_TRUE(LidarRobot::until([&] { return robot.isConnected(); }));
+  robot.drive(kSweeps);
+  ASSERT_TRUE(LidarRobot::until([&] { return robot.clouds.size() >= kSweeps / 3; })) << robot.clouds.size();
+  EXPECT_TRUE(LidarRobot::until([&] { return robot.diagnosed("sweeps", std::to_string(kSweeps)); }));
+  const sensor_msgs::PointCloud2 cloud = robot.clouds.back();
+  EXPECT_EQ(cloud.header.frame_id, "odom");
+  EXPECT_GT(cloud.width, 2000U);
+  sensor_msgs::PointCloud2ConstIterator<float> x(cloud, "x"), p(cloud, "probability");
+  sensor_msgs::PointCloud2ConstIterator<std::uint8_t> label(cloud, "label");
+  for (; x != x.end(); ++x, ++p, ++label) {
+    ASSERT_TRUE(std::abs(x[1] - 4.0F) < 0.05F || std::abs(x[2]) < 0.05F) << "neither wall nor ground";
+    ASSERT_TRUE(p[0] > 0.1F && p[0] <= 1.0F);
+    ASSERT_LE(label[0], 7);
+  }
 }
 
 TEST(SceneLabelerNodelet, ASilentOdometryIsNamed) {

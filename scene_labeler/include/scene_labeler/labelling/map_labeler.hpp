@@ -65,9 +65,9 @@ class MapLabeler {
   /// The model must outlive the labeler.
   MapLabeler(const LabelModel& model, const Options& options, std::vector<PlacedView> views, Callbacks callbacks);
 
-  /// Adds points, m, about 5 cm apart. `reflectance`: one per point, from the robot's lasers, normalised for range and
-  /// incidence.
-  void addPoints(const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint8_t>& reflectance);
+  /// Adds points, m, about 5 cm apart. `reflectance`: one per point, from the robot's side lasers, normalised for range
+  /// and incidence; NaN for points of other sensors, such as 3D LiDARs.
+  void addPoints(const std::vector<Eigen::Vector3f>& points, const std::vector<float>& reflectance);
   /// Labels all points whose surroundings are complete. Later points must have a y of at least this value.
   void sweepTo(double y);
   /// Labels all remaining points.
@@ -81,7 +81,8 @@ class MapLabeler {
   struct SquarePoints {
     std::vector<std::size_t> numbers;
     std::vector<Eigen::Vector3f> points;
-    std::vector<std::uint8_t> reflectance, is_shown;
+    std::vector<float> reflectance;  // NaN: unknown
+    std::vector<std::uint8_t> is_shown;
     std::vector<float> logs;  // per point and class, summed over views
     std::vector<std::uint16_t> views, unsure, in_new_place;
   };

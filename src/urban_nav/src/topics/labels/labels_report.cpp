@@ -6,6 +6,7 @@
 
 #include "base/plot.hpp"
 #include "scene_labeler/model/place_novelty.hpp"
+#include "topics/labels/instances_report.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 
@@ -100,6 +101,7 @@ Section labelsSection(const LabelsRun& run) {
       section.figures.push_back(
           {"In three dimensions", map.layer, "Choose `class` as colour to show the classes.", true});
   section.tables.push_back(classesTable(run));
+  section.tables.push_back(instancesTable(run));
   return section;
 }
 
@@ -126,6 +128,7 @@ Json toJson(const LabelsRun& run) {
   json["points_labelled"] = run.labelled();
   json["unsure_share"] = labelShare(run.unsure(), run.labelled());
   json["model"] = run.model;
+  json["instances"] = instancesJson(run);
   json["seconds"] = run.seconds;
   return json;
 }

@@ -5,11 +5,14 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
+#include <set>
 
 #include "base/map_layer.hpp"
 #include "laser_mapper/laser_map.hpp"
 #include "laser_mapper/map_picture.hpp"
+#include "laser_mapper/sensors.hpp"
 #include "map/stage_result.hpp"
 #include "scene_labeler/drive/travelled_path.hpp"
 #include "scene_labeler/parameters.hpp"
@@ -151,16 +154,18 @@ std::string drawLayer(std::size_t view, const std::vector<PointLabel>& labels) {
   return renderMapLayer(view, "class", kinds.items(), colours);
 }
 
-/// Draws the labels and measures their extents.
+/// Draws the labels, measures their extents and finds single objects.
 void describeLabels(const LaserMap& map, const std::vector<PointLabel>& labels,
                     const std::vector<urban_nav_core::Vector3d>& path, LabelledMap& made) {
   laser_mapper::MapPicture above(laser_mapper::viewFromAbove(path, kAboveMargin, kAboveLongest));
   ExtentMeter extents;
+  scene_labeler::InstanceFinder objects;
   std::size_t next = 0;
   map.forEachTile([&](const laser_mapper::Tile&, std::vector<MapPoint> points) {
     for (MapPoint& point : points) {
       const PointLabel& label = labels[next++];
       extents.add(point.p, label);
+      objects.add(point.p, label, point.stamp);
       const ClassColour colour = classColour(label.label);
       point.red = colour.red;
       point.green = colour.green;
@@ -169,6 +174,7 @@ void describeLabels(const LaserMap& map, const std::vector<PointLabel>& labels,
     above.draw(points);
   });
   made.extents = extents.finish();
+  made.instances = objects.find();
   const urban_nav_registration::Picture picture = above.finish(above.shownBox());
   made.pictures.push_back({"The map from above in the colours of the classes: " + classColourNames() + ".",
                            urban_nav_registration::encodeJpeg(picture), picture.width, picture.height});
@@ -212,10 +218,11 @@ std::vector<PointLabel> labelPoints(const LabelModel& model, const scene_labeler
     row = tile.y;
     digest.add(points);
     std::vector<Eigen::Vector3f> places;
-    std::vector<std::uint8_t> reflectance;
+    std::vector<float> reflectance;
     for (const MapPoint& point : points) {
       places.push_back(point.p);
-      reflectance.push_back(point.intensity);
+      const bool is_of_laser = point.laser < laser_mapper::kFirstLidar;
+      reflectance.push_back(is_of_laser ? point.intensity : std::numeric_limits<float>::quiet_NaN());
     }
     labels.resize(labels.size() + points.size());
     labeler.addPoints(places, reflectance);
@@ -269,14 +276,22 @@ std::size_t LabelsRun::inNewPlace() const { return sumOverMaps(*this, &LabelledM
 std::size_t LabelsRun::classImages() const { return sumOverMaps(*this, &LabelledMap::class_images); }
 std::size_t LabelsRun::unsure() const { return sumOverMaps(*this, &LabelledMap::unsure); }
 
+bool hasLaserMeasurements(urban_nav_store::Store& store, const urban_nav_store::SessionId& session) {
+  const std::vector<laser_mapper::SensorName> sensors = laser_mapper::storedSensors(store, {session});
+  return std::any_of(sensors.begin(), sensors.end(),
+                     [](const auto& sensor) { return sensor.id != laser_mapper::kStereoSensor; });
+}
+
 LabelsRun runLabels(const NamedLabelModel& model, MapContext& context) {
   const auto begin = LabelsClock::now();
   const std::vector<urban_nav_store::SessionId> ids = context.ids();
-  std::map<std::size_t, std::vector<laser_mapper::MappedSession>> sessions_of_map;
+  std::map<std::size_t, std::vector<laser_mapper::MappedSession>> sessions_of_map;  // those of stage lasers
+  std::set<std::size_t> maps_of_lasers;
   for (std::size_t s = 0; s < context.trajectories.size(); ++s) {
     const SessionTrajectory& session = context.trajectories[s];
-    if (session.written && !context.store->scans().lasers(ids[s]).empty())
-      sessions_of_map[session.map].push_back({ids[s], &session.T_map_base, &session.covariances});
+    if (!session.written || !laser_mapper::missingMeasurements(*context.store, ids[s]).empty()) continue;
+    sessions_of_map[session.map].push_back({ids[s], &session.T_map_base, &session.covariances});
+    if (hasLaserMeasurements(*context.store, ids[s])) maps_of_lasers.insert(session.map);
   }
   const scene_labeler::Parameters& parameters = context.options.parameters.get(scene_labeler::table());
   const ClassImagesOfSessions classes = findClassImages(parameters, context);
@@ -284,8 +299,9 @@ LabelsRun runLabels(const NamedLabelModel& model, MapContext& context) {
   run.model = model.digest;
   run.threshold_note = scene_labeler::thresholdNote(model.model.sure, parameters.precision, parameters.model);
   run.class_topic = parameters.class_topic;
-  Progress bar(context.console, "labels", "maps", static_cast<std::int64_t>(sessions_of_map.size()));
+  Progress bar(context.console, "labels", "maps", static_cast<std::int64_t>(maps_of_lasers.size()));
   for (const auto& [map, sessions] : sessions_of_map) {
+    if (maps_of_lasers.count(map) == 0) continue;
     run.maps.push_back(labelMap(model, map, sessions, classes, context, run.milliseconds));
     bar.update(static_cast<std::int64_t>(run.maps.size()));
   }

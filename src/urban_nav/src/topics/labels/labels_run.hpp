@@ -8,6 +8,7 @@
 
 #include "base/page.hpp"
 #include "map/context.hpp"
+#include "scene_labeler/instances/instance_finder.hpp"
 #include "scene_labeler/labelling/map_labeler.hpp"
 #include "topics/labels/label_model_file.hpp"
 
@@ -31,6 +32,7 @@ struct LabelledMap {
   std::size_t in_new_place = 0;      ///< images of kinds of places without training data
   std::size_t class_images = 0;      ///< images with a class image from another source
   std::array<ClassExtent, scene_labeler::kClassCount> extents;
+  std::vector<scene_labeler::Instance> instances;  ///< vehicles, people and poles
   std::vector<PagePicture> pictures;
   std::string layer;  ///< markup of the classes in the view of the map; empty without points
 };
@@ -54,7 +56,11 @@ struct LabelsRun {
   std::size_t classImages() const;
 };
 
-/// Labels the maps of stage lasers in the store and the output folder, and adds the labels to map.ply.
+/// Returns whether a session has scans of planar lasers or sweeps of 3D LiDARs.
+bool hasLaserMeasurements(urban_nav_store::Store& store, const urban_nav_store::SessionId& session);
+
+/// Labels the maps of stage lasers that have such measurements, in the store and the output folder, and adds the labels
+/// to map.ply.
 LabelsRun runLabels(const NamedLabelModel& model, MapContext& context);
 
 }  // namespace urban_nav

@@ -7,6 +7,7 @@
 #include "map/stage_result.hpp"
 #include "scene_labeler/class_map.hpp"
 #include "scene_labeler/parameters.hpp"
+#include "topics/labels/instances_report.hpp"
 #include "topics/labels/labels_report.hpp"
 #include "topics/labels/labels_run.hpp"
 #include "urban_nav_core/io/format_number.hpp"
@@ -18,7 +19,9 @@ namespace {
 /// Runs after stage lasers, whose map it labels.
 class LabelsStage final : public Stage {
  public:
-  Description describe() const override { return {"labels", "scene_labeler", true, false, false, {"labels.csv"}}; }
+  Description describe() const override {
+    return {"labels", "scene_labeler", true, false, false, {"labels.csv", "instances.csv"}};
+  }
   void addTables(ParameterSet& parameters) const override { parameters.add(scene_labeler::table()); }
   std::vector<std::string> topicsRead(const ParameterSet& parameters) const override {
     return {parameters.get(scene_labeler::table()).class_topic};
@@ -37,8 +40,8 @@ class LabelsStage final : public Stage {
     if (!isRequested(context.options, "lasers")) return "no map of the lasers: stage lasers is not in --stages";
     const std::vector<urban_nav_store::SessionId> ids = context.ids();
     const bool any =
-        std::any_of(ids.begin(), ids.end(), [&](const auto& id) { return !context.store->scans().lasers(id).empty(); });
-    return any ? "" : "no laser scans";
+        std::any_of(ids.begin(), ids.end(), [&](const auto& id) { return hasLaserMeasurements(*context.store, id); });
+    return any ? "" : "no laser scans or sweeps of a 3D LiDAR";
   }
 
   Messages run(MapContext& context) override {
@@ -61,6 +64,7 @@ class LabelsStage final : public Stage {
     made.data_faults = labelsWarnings(*run_);
     const LabelsRun& run = *run_;
     made.files.push_back({"labels.csv", [run] { return printLabelsCsv(run); }});
+    made.files.push_back({"instances.csv", [run] { return printInstancesCsv(run); }});
     made.summary = toJson(*run_);
     return made;
   }
