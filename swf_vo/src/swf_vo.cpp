@@ -13,8 +13,8 @@
 #include "health/image_check.hpp"
 #include "health/row_check.hpp"
 #include "motion/mean_choice.hpp"
-#include "motion/motion_sensors.hpp"
 #include "motion/propagation.hpp"
+#include "motion/sensor_prediction.hpp"
 #include "output.hpp"
 #include "prediction.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
@@ -154,7 +154,6 @@ class SwfVo::Implementation {
         T_odom_first_camera_(T_base_camera),
         row_repair_(camera.left.width, camera.left.height),
         prediction_(parameters, T_base_camera),
-        sensors_(T_base_camera),
         front_end_(parameters, camera, !ablation.whole_pixels),
         window_(windowOptions(parameters, camera, ablation), camera),
         health_(parameters),
@@ -209,7 +208,7 @@ class SwfVo::Implementation {
     degraded_ = status.health != urban_nav_core::Health::Ok;
     started_ = true;
     const Frame& frame = output_.write(frame_++, pair.stamp, status, window_, u, seen, update);
-    for (const Settled& settled : frame.settled) sensors_.learn(settled);
+    for (const Settled& settled : frame.settled) sensors_.learn(toMeasuredStep(settled));
     output_.setMotion(sensors_.estimates());
     dropLandmarks(window_.driftingLandmarks());
     return frame;
@@ -271,7 +270,7 @@ class SwfVo::Implementation {
     if (!started_) return predicted;
     predicted.u = predicted.with_sensors = prediction_.step(seconds_, inputs);
     predicted.steady = predicted.u.T_from_to;
-    predicted.reckoned = sensors_.predict(from, to, last);
+    predicted.reckoned = predictCamera(sensors_, from, to, last, T_odom_first_camera_);
     if (!predicted.reckoned) return predicted;
     predicted.with_sensors = fuse(predicted.u, predicted.reckoned->T_from_to, predicted.reckoned->information);
     predicted.u.T_from_to = mean_choice_.choose(predicted.steady, predicted.with_sensors.T_from_to);
@@ -281,7 +280,7 @@ class SwfVo::Implementation {
   /// Compares the predictions of a step with the motion by images.
   void check(urban_nav_core::StampNs from, urban_nav_core::StampNs to, const Predicted& predicted) {
     const Pose measured = window_.pose(frame_ - 1).inverse() * window_.newest().pose;
-    sensors_.check(from, to, measured);
+    sensors_.check(toMeasuredStep(from, to, measured, T_odom_first_camera_));
     if (predicted.reckoned) mean_choice_.see(predicted.steady, predicted.with_sensors.T_from_to, measured);
   }
 
@@ -378,7 +377,7 @@ class SwfVo::Implementation {
   ImageCheck images_;
   RowCheck rows_;
   Prediction prediction_;
-  MotionSensors sensors_;
+  urban_nav_core::MotionSensors sensors_;
   MeanChoice mean_choice_;
   FrontEnd front_end_;
   Window window_;

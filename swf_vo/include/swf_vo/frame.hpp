@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "urban_nav_core/motion/motion_estimates.hpp"
 #include "urban_nav_core/types/pose_with_covariance.hpp"
 
 namespace urban_nav_core {
@@ -63,45 +64,11 @@ struct RigConstants {
   urban_nav_core::Vector3d right_turn_rad = urban_nav_core::Vector3d::Zero();  ///< as Statistics::right_turn_rad
 };
 
-/// A motion sensor that contradicts the images and is excluded.
-struct MotionSensorFault {
-  bool is_wheels = false;                        ///< true: wheels; false: gyroscope of the IMU
-  bool is_named = false;                         ///< the sentence names the cause; false: it states the difference only
-  urban_nav_core::StampNs since = 0, until = 0;  ///< `until` 0: until the end of the session
-  std::string sentence;                          ///< the fault with a figure, and the remedy
-};
-
-/// Returns "wheels not used from 3.2 s on: " and the sentence. `begin`: stamp of the first frame.
-std::string describe(const MotionSensorFault& fault, urban_nav_core::StampNs begin);
-
-/// Newest settled step by images compared with motion sensors, after the estimated corrections. A sigma of 0: not
-/// compared.
-struct MotionComparison {
-  urban_nav_core::Vector3d turn = urban_nav_core::Vector3d::Zero();        ///< by images, rad
-  urban_nav_core::Vector3d turn_error = urban_nav_core::Vector3d::Zero();  ///< images minus gyroscope, rad
-  double turn_sigma = 0.0;                                                 ///< each axis, rad
-  double forward = 0.0, sideways = 0.0;                                    ///< motion by images, m in base_link
-  double forward_error = 0.0;  ///< images minus wheels as they state it (without the estimated scale), along x, m
-  double forward_sigma = 0.0;  ///< m
-};
-
-/// Motion sensors and their calibration estimated from images. Until the first measurement, estimates and standard
-/// deviations are those of the priors. Undefined for a sensor that is absent or excluded.
-struct MotionEstimates {
-  bool has_gyroscope = false, uses_gyroscope = false, gyroscope_left_out = false;
-  bool has_wheels = false, uses_wheels = false, wheels_left_out = false;
-  Eigen::Vector3d gyroscope_bias = Eigen::Vector3d::Zero();  ///< measured minus true, rad/s, in IMU axes
-  Eigen::Vector3d gyroscope_bias_sigma = Eigen::Vector3d::Zero();
-  double imu_offset_s = 0.0, imu_offset_sigma_s = 0.0;          ///< delay of its stamps relative to the camera clock
-  double wheel_scale = 1.0, wheel_scale_sigma = 0.0;            ///< measured over true speed
-  double wheel_turn_scale = 1.0, wheel_turn_scale_sigma = 0.0;  ///< measured over true yaw rate
-  double wheel_offset_s = 0.0, wheel_offset_sigma_s = 0.0;      ///< as imu_offset_s
-  MotionComparison newest;
-  std::vector<MotionSensorFault> faults;  ///< ordered by `since`
-};
-
-/// Returns the sentence of the latest fault for which the gyroscope or the wheels are excluded; empty: not excluded.
-std::string currentFault(const MotionEstimates& motion, bool is_wheels);
+// Motion sensors: the reference is the odometry by images.
+using urban_nav_core::describe;
+using urban_nav_core::MotionComparison;
+using urban_nav_core::MotionEstimates;
+using urban_nav_core::MotionSensorFault;
 
 /// Measured disparities minus those predicted from earlier frames; zero while the cameras keep their mounting.
 struct DisparityStep {
@@ -142,11 +109,7 @@ struct Settled {
   urban_nav_core::Status status;  ///< at the time of the frame
 };
 
-/// Twist of base_link in its own axes: m/s, then rad/s.
-struct Velocity {
-  urban_nav_core::Vector6d twist = urban_nav_core::Vector6d::Zero();
-  urban_nav_core::Matrix6d covariance = urban_nav_core::Matrix6d::Identity();
-};
+using Velocity = urban_nav_core::BodyTwist;
 
 /// Output for one stereo pair. `odom` is the first base_link.
 struct Frame {
@@ -170,8 +133,6 @@ struct Frame {
 void archive(urban_nav_core::Archive& archive, Feature& feature);
 void archive(urban_nav_core::Archive& archive, Landmark& landmark);
 void archive(urban_nav_core::Archive& archive, RigConstants& rig);
-void archive(urban_nav_core::Archive& archive, MotionSensorFault& fault);
-void archive(urban_nav_core::Archive& archive, MotionEstimates& motion);
 void archive(urban_nav_core::Archive& archive, Statistics& statistics);
 void archive(urban_nav_core::Archive& archive, Settled& settled);
 void archive(urban_nav_core::Archive& archive, Frame& frame);

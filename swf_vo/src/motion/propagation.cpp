@@ -33,7 +33,7 @@ PoseWithCovariance composed(const PoseWithCovariance& T_odom_from, const Process
 }  // namespace
 
 Propagation::Implementation::Implementation(const Parameters& parameters, const Pose& T_base_camera,
-                                            Prediction prediction, MotionSensors sensors, StampNs stamp,
+                                            Prediction prediction, urban_nav_core::MotionSensors sensors, StampNs stamp,
                                             const PoseWithCovariance& newest, const Velocity& velocity)
     : acceleration_(parameters.acceleration),
       angular_acceleration_(parameters.angular_acceleration),
@@ -47,7 +47,8 @@ Propagation::Implementation::Implementation(const Parameters& parameters, const 
 
 ProcessInput Propagation::Implementation::step(StampNs to) const {
   const ProcessInput u = prediction_.step(secondsBetween(anchor_, to), {});
-  const std::optional<ProcessInput> reckoned = sensors_.predict(anchor_, to, T_odom_camera_.pose);
+  const std::optional<ProcessInput> reckoned =
+      predictCamera(sensors_, anchor_, to, T_odom_camera_.pose, T_base_camera_);
   return reckoned ? fuse(u, reckoned->T_from_to, reckoned->information) : u;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "motion/motion_sensors.hpp"
+#include "motion/sensor_prediction.hpp"
 #include "prediction.hpp"
 #include "swf_vo/parameters.hpp"
 #include "swf_vo/propagation.hpp"
@@ -14,8 +14,8 @@ class Propagation::Implementation {
  public:
   /// `newest`: left camera at `stamp`. `velocity`: of base_link in that frame.
   Implementation(const Parameters& parameters, const urban_nav_core::Pose& T_base_camera, Prediction prediction,
-                 MotionSensors sensors, urban_nav_core::StampNs stamp, const urban_nav_core::PoseWithCovariance& newest,
-                 const Velocity& velocity);
+                 urban_nav_core::MotionSensors sensors, urban_nav_core::StampNs stamp,
+                 const urban_nav_core::PoseWithCovariance& newest, const Velocity& velocity);
 
   std::optional<PropagatedPose> add(const urban_nav_core::MotionInput& input);
 
@@ -29,7 +29,7 @@ class Propagation::Implementation {
   double acceleration_, angular_acceleration_;  // m/s^2, rad/s^2
   urban_nav_core::Pose T_base_camera_;
   Prediction prediction_;
-  MotionSensors sensors_;
+  urban_nav_core::MotionSensors sensors_;
   urban_nav_core::StampNs frame_stamp_, anchor_;
   urban_nav_core::PoseWithCovariance T_odom_camera_;  // at the anchor
   Velocity velocity_;                                 // of the frame

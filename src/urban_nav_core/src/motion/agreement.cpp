@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "motion/agreement.hpp"
+#include "urban_nav_core/motion/agreement.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace swf_vo {
+namespace urban_nav_core {
 
 namespace {
 
-constexpr double kBlock = 0.25;  // s
+constexpr double kAgreementBlock = 0.25;  // s
 // Standard deviations of a significant difference, and share of the motion above which it contradicts.
 constexpr double kFar = 4.0, kLargeShare = 0.5;
 // Weight of a block relative to the next one, and sums required for a contradiction and for a confirmation.
@@ -23,32 +23,32 @@ constexpr std::size_t kMostSteps = 240;
 
 }  // namespace
 
-void Agreement::add(const ComparedStep& step, const urban_nav_core::Vector3d& error, double variance) {
+void Agreement::add(const ComparedStep& step, const Vector3d& error, double variance) {
   if (steps_.size() >= kMostSteps) steps_.erase(steps_.begin());
   steps_.push_back(step);
   block_.seconds += step.seconds;
   block_.variance += variance;
   block_.error += error;
-  block_.by_images += step.by_images;
+  block_.by_reference += step.by_reference;
   block_.by_sensor += step.by_sensor;
-  if (block_.seconds >= kBlock) closeBlock();
+  if (block_.seconds >= kAgreementBlock) closeBlock();
 }
 
 void Agreement::closeBlock() {
   const double least = kFar * kFar * (block_.variance + floor_ * floor_), error = block_.error.squaredNorm(),
-               motion = std::max(block_.by_images.squaredNorm(), block_.by_sensor.squaredNorm());
+               motion = std::max(block_.by_reference.squaredNorm(), block_.by_sensor.squaredNorm());
   const bool differs = error > kLargeShare * kLargeShare * motion;
   if (differs && error > least) {
     contradicted_ = kKept * contradicted_ + 1.0;
     confirmed_ *= kKept;
-  } else if (!differs && block_.by_images.squaredNorm() > least) {
+  } else if (!differs && block_.by_reference.squaredNorm() > least) {
     confirmed_ = kKept * confirmed_ + 1.0;
     contradicted_ *= kKept;
   }
-  const double images = block_.by_images.squaredNorm();
-  motion_ = kSumsKept * motion_ + images;
-  along_ = kSumsKept * along_ + block_.by_images.dot(block_.error);
-  along_variance_ = kSumsKept * kSumsKept * along_variance_ + images * (block_.variance + floor_ * floor_);
+  const double moved = block_.by_reference.squaredNorm();
+  motion_ = kSumsKept * motion_ + moved;
+  along_ = kSumsKept * along_ + block_.by_reference.dot(block_.error);
+  along_variance_ = kSumsKept * kSumsKept * along_variance_ + moved * (block_.variance + floor_ * floor_);
   compared_ += block_.seconds;
   block_ = Block();
 }
@@ -77,10 +77,10 @@ Agreement::Verdict Agreement::verdict() const {
   return Verdict::Agrees;
 }
 
-void Agreement::archive(urban_nav_core::Archive& archive) {
-  archive(block_.seconds, block_.variance, block_.error, block_.by_images, block_.by_sensor);
+void Agreement::archive(Archive& archive) {
+  archive(block_.seconds, block_.variance, block_.error, block_.by_reference, block_.by_sensor);
   archive(contradicted_, confirmed_, motion_, along_, along_variance_);
   archive(compared_, wanted_, restarts_, steps_);
 }
 
-}  // namespace swf_vo
+}  // namespace urban_nav_core

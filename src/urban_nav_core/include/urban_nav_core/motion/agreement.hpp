@@ -7,21 +7,22 @@
 #include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
-namespace swf_vo {
+namespace urban_nav_core {
 
-/// Motion over one step by images and by a sensor: rotation vectors (rad), or translations (m).
+/// Motion over one step by the reference (odometry by images or sweeps) and by a sensor: rotation vectors (rad), or
+/// translations (m).
 struct ComparedStep {
-  urban_nav_core::StampNs to = 0;
+  StampNs to = 0;
   double seconds = 0.0;
-  urban_nav_core::Vector3d by_images = urban_nav_core::Vector3d::Zero();
-  urban_nav_core::Vector3d by_sensor = urban_nav_core::Vector3d::Zero();  ///< without any correction
-  void archive(urban_nav_core::Archive& archive) { archive(to, seconds, by_images, by_sensor); }
+  Vector3d by_reference = Vector3d::Zero();
+  Vector3d by_sensor = Vector3d::Zero();  ///< without any correction
+  void archive(Archive& archive) { archive(to, seconds, by_reference, by_sensor); }
 };
 
-/// Tests whether a motion sensor is consistent with images. Steps are summed over blocks of 0.25 s. A block contradicts
-/// if the corrected difference is far beyond its standard deviation and more than half of the motion; it confirms if a
-/// motion far beyond its standard deviation is matched. Blocks without motion are neutral. The scale of the motion over
-/// the last seconds must match as well.
+/// Tests whether a motion sensor is consistent with the reference. Steps are summed over blocks of 0.25 s. A block
+/// contradicts if the corrected difference is far beyond its standard deviation and more than half of the motion; it
+/// confirms if a motion far beyond its standard deviation is matched. Blocks without motion are neutral. The scale of
+/// the motion over the last seconds must match as well.
 class Agreement {
  public:
   enum class Verdict { Unknown, Agrees, Contradicts };
@@ -30,7 +31,7 @@ class Agreement {
   explicit Agreement(double floor) : floor_(floor) {}
 
   /// `error`: difference after the estimated corrections; `variance`: its variance, summed over the axes.
-  void add(const ComparedStep& step, const urban_nav_core::Vector3d& error, double variance);
+  void add(const ComparedStep& step, const Vector3d& error, double variance);
   /// Marks a gap: the next step does not follow the previous one.
   void interrupt();
   /// Restarts after a contradiction. `was_trusted`: the sensor was in use; the required time until it is used again
@@ -41,12 +42,12 @@ class Agreement {
   /// Returns the steps of the last seconds.
   const std::vector<ComparedStep>& steps() const { return steps_; }
 
-  void archive(urban_nav_core::Archive& archive);
+  void archive(Archive& archive);
 
  private:
   struct Block {
     double seconds = 0.0, variance = 0.0;
-    urban_nav_core::Vector3d error = urban_nav_core::Vector3d::Zero(), by_images = error, by_sensor = error;
+    Vector3d error = Vector3d::Zero(), by_reference = error, by_sensor = error;
   };
   void closeBlock();
   bool isOffScale() const;
@@ -62,4 +63,4 @@ class Agreement {
   std::vector<ComparedStep> steps_;
 };
 
-}  // namespace swf_vo
+}  // namespace urban_nav_core

@@ -5,11 +5,11 @@
 #include <random>
 #include <vector>
 
-#include "swf_vo/frame.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
+#include "urban_nav_core/motion/motion_sensors.hpp"
 #include "urban_nav_core/types/motion_input.hpp"
 
-namespace swf_vo {
+namespace urban_nav_core {
 
 /// Motion of a robot on level ground, with pitch and roll oscillations, at 1 ms. Stamps are nanoseconds since the
 /// start.
@@ -36,18 +36,18 @@ class LevelDrive {
 
   int milliseconds() const { return static_cast<int>(poses_.size()) - 1; }
   /// Returns T_odom_base.
-  const urban_nav_core::Pose& at(int ms) const { return poses_[static_cast<std::size_t>(ms)]; }
-  urban_nav_core::Pose between(int from, int to) const { return at(from).inverse() * at(to); }
+  const Pose& at(int ms) const { return poses_[static_cast<std::size_t>(ms)]; }
+  Pose between(int from, int to) const { return at(from).inverse() * at(to); }
   /// Returns the planar motion of the wheels between two times.
-  urban_nav_core::Pose rolled(int from, int to) const {
+  Pose rolled(int from, int to) const {
     return levels_[static_cast<std::size_t>(from)].inverse() * levels_[static_cast<std::size_t>(to)];
   }
 
  private:
-  std::vector<urban_nav_core::Pose> poses_, levels_;
+  std::vector<Pose> poses_, levels_;
 };
 
-constexpr urban_nav_core::StampNs kMillisecond = 1'000'000;
+constexpr StampNs kMillisecond = 1'000'000;
 
 /// Errors of the sensors of a drive.
 struct DriveErrors {
@@ -58,59 +58,59 @@ struct DriveErrors {
   double wheel_noise = 0.01;  // share of the distance of a message
 };
 
-/// Draws sensor and image measurements of a drive. Deterministic for a seed.
+/// Draws sensor and reference measurements of a drive. Deterministic for a seed.
 class DriveSensors {
  public:
   DriveSensors(const LevelDrive& drive, const DriveErrors& errors, unsigned seed)
       : drive_(drive), errors_(errors), random_(seed) {}
 
   /// Returns the rate of a gyroscope over 10 ms from `ms` on.
-  urban_nav_core::MotionInput gyroscope(int ms) {
+  MotionInput gyroscope(int ms) {
     constexpr int kPeriod = 10;
     const double seconds = 1e-3 * kPeriod;
-    const Eigen::Vector3d turn = urban_nav_core::logSo3(drive_.between(ms, ms + kPeriod).q()) + seconds * errors_.bias +
+    const Eigen::Vector3d turn = logSo3(drive_.between(ms, ms + kPeriod).q()) + seconds * errors_.bias +
                                  errors_.rate_density * std::sqrt(seconds) * noise();
-    urban_nav_core::MotionInput input;
-    input.source = urban_nav_core::MotionSource::Gyroscope;
+    MotionInput input;
+    input.source = MotionSource::Gyroscope;
     input.from = (ms + errors_.imu_delay_ms) * kMillisecond;
     input.to = input.from + kPeriod * kMillisecond;
-    input.T_from_to = urban_nav_core::Pose(urban_nav_core::expSo3(turn), Eigen::Vector3d::Zero());
+    input.T_from_to = Pose(expSo3(turn), Eigen::Vector3d::Zero());
     const double sigma = errors_.rate_density * std::sqrt(seconds);
     if (sigma > 0.0) input.information.diagonal().tail<3>().setConstant(1.0 / (sigma * sigma));
     return input;
   }
 
   /// Returns the wheel measurement over 40 ms from `ms` on.
-  urban_nav_core::MotionInput wheels(int ms) {
+  MotionInput wheels(int ms) {
     constexpr int kPeriod = 40;
-    urban_nav_core::Vector6d motion = urban_nav_core::logSe3(drive_.rolled(ms, ms + kPeriod));
+    Vector6d motion = logSe3(drive_.rolled(ms, ms + kPeriod));
     const double sigma = errors_.wheel_noise * motion[0] + 2e-4;
     motion[0] = errors_.speed_scale * motion[0] + sigma * noise().x();
     motion[5] = errors_.turn_scale * motion[5] + sigma * noise().x();
-    urban_nav_core::MotionInput input;
-    input.source = urban_nav_core::MotionSource::Wheels;
+    MotionInput input;
+    input.source = MotionSource::Wheels;
     input.from = ms * kMillisecond;
     input.to = input.from + kPeriod * kMillisecond;
-    input.T_from_to = urban_nav_core::expSe3(motion);
+    input.T_from_to = expSe3(motion);
     input.information.diagonal() << 1.0 / (sigma * sigma), 1.0 / (sigma * sigma), 0.0, 0.0, 0.0, 1.0 / (sigma * sigma);
     return input;
   }
 
-  /// Returns a step as measured by images, with errors according to its covariance, which is all drift.
-  Settled step(FrameId frame, int from, int to) {
+  /// Returns a step as measured by the reference, with errors according to its covariance, which is all drift.
+  MeasuredStep step(std::int64_t frame, int from, int to) {
     constexpr double kForward = 1e-3, kTurn = 1e-4;  // m, rad
-    Settled settled;
+    MeasuredStep settled;
     settled.frame = frame;
     settled.stamp = to * kMillisecond;
-    settled.T_odom_base.pose = drive_.at(to);
-    settled.from_previous.from = from * kMillisecond;
-    settled.from_previous.to = to * kMillisecond;
-    urban_nav_core::Vector6d error;
+    settled.q_odom_base = drive_.at(to).q();
+    settled.step.from = from * kMillisecond;
+    settled.step.to = to * kMillisecond;
+    Vector6d error;
     error << kForward * noise(), kTurn * noise();
-    settled.from_previous.T_from_to = urban_nav_core::boxPlus(drive_.between(from, to), error);
-    urban_nav_core::Vector6d variances;
+    settled.step.T_from_to = boxPlus(drive_.between(from, to), error);
+    Vector6d variances;
     variances << Eigen::Vector3d::Constant(kForward * kForward), Eigen::Vector3d::Constant(kTurn * kTurn);
-    settled.from_previous.covariance = settled.from_previous.drift_covariance = variances.asDiagonal();
+    settled.step.covariance = settled.step.drift_covariance = variances.asDiagonal();
     return settled;
   }
 
@@ -123,4 +123,4 @@ class DriveSensors {
   std::normal_distribution<double> normal_;
 };
 
-}  // namespace swf_vo
+}  // namespace urban_nav_core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "motion/up_direction.hpp"
+#include "urban_nav_core/motion/up_direction.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,15 +7,10 @@
 #include <limits>
 
 #include "drive.hpp"
-#include "motion/dead_reckoning.hpp"
+#include "urban_nav_core/motion/dead_reckoning.hpp"
 
-namespace swf_vo {
+namespace urban_nav_core {
 namespace {
-
-using urban_nav_core::MotionInput;
-using urban_nav_core::Pose;
-using urban_nav_core::Quaterniond;
-using urban_nav_core::Vector3d;
 
 constexpr int kStepMs = 50, kForceMs = 10;
 
@@ -84,4 +79,4 @@ TEST(GroundSlope, IsLevelAcrossAStraightStreet) {
 }
 
 }  // namespace
-}  // namespace swf_vo
+}  // namespace urban_nav_core

@@ -8,18 +8,18 @@
 #include "urban_nav_core/io/archive.hpp"
 #include "urban_nav_core/types/motion_input.hpp"
 
-namespace swf_vo {
+namespace urban_nav_core {
 
 /// Motion at a constant twist between two stamps, as stated by a sensor.
 struct TwistSpan {
-  urban_nav_core::StampNs from = 0, to = 0;
-  urban_nav_core::Vector6d twist = urban_nav_core::Vector6d::Zero();  ///< twist of base_link in its axes: m/s, then
-                                                                      ///< rad/s
+  StampNs from = 0, to = 0;
+  Vector6d twist = Vector6d::Zero();  ///< twist of base_link in its axes: m/s, then
+                                      ///< rad/s
   /// Variances of the increments of forward, sideways, height, roll, pitch and yaw per second, m^2/s and rad^2/s; 0:
   /// not stated.
-  urban_nav_core::Vector6d density = urban_nav_core::Vector6d::Zero();
-  double seconds() const { return urban_nav_core::secondsBetween(from, to); }
-  void archive(urban_nav_core::Archive& archive) { archive(from, to, twist, density); }
+  Vector6d density = Vector6d::Zero();
+  double seconds() const { return secondsBetween(from, to); }
+  void archive(Archive& archive) { archive(from, to, twist, density); }
 };
 
 /// Coverage of a time interval by sensor spans.
@@ -37,14 +37,14 @@ struct Coverage {
 class TwistStream {
  public:
   /// Appends an input. Inputs that begin before the end of the previous one or are not finite are dropped.
-  void add(const urban_nav_core::MotionInput& input);
+  void add(const MotionInput& input);
   /// Removes the spans that end before a stamp, except for the last one.
-  void forget(urban_nav_core::StampNs before);
+  void forget(StampNs before);
 
   bool isEmpty() const { return spans_.empty(); }
   const TwistSpan& newest() const { return spans_.back(); }
   /// Returns the twist at a stamp: that of the span around it, or of the nearest. Requires a non-empty stream.
-  const TwistSpan& at(urban_nav_core::StampNs stamp) const;
+  const TwistSpan& at(StampNs stamp) const;
   /// Returns the time for which all numbers have been unchanged, s.
   double repeatedSeconds() const { return repeated_; }
   /// Returns whether the same non-zero motion has been repeated, to all digits, for longer than a working device does.
@@ -53,36 +53,35 @@ class TwistStream {
   /// rates; 0 until enough are available.
   double scatterDensity() const { return scatter_; }
   /// Returns the variance of the change of the twist per second, by component.
-  const urban_nav_core::Vector6d& walk() const { return walk_; }
+  const Vector6d& walk() const { return walk_; }
 
   /// Calls visit(span, seconds) for pieces that together cover [from, to], in order. Requires a non-empty stream.
   template <typename Visit>
-  Coverage cover(urban_nav_core::StampNs from, urban_nav_core::StampNs to, const Visit& visit) const;
+  Coverage cover(StampNs from, StampNs to, const Visit& visit) const;
 
-  void archive(urban_nav_core::Archive& archive);
+  void archive(Archive& archive);
 
  private:
   std::vector<TwistSpan> spans_;  // oldest first
   double repeated_ = 0.0, scatter_ = 0.0;
-  urban_nav_core::Vector6d walk_ = urban_nav_core::Vector6d::Zero();
+  Vector6d walk_ = Vector6d::Zero();
 };
 
 template <typename Visit>
-Coverage TwistStream::cover(urban_nav_core::StampNs from, urban_nav_core::StampNs to, const Visit& visit) const {
-  using urban_nav_core::secondsBetween;
+Coverage TwistStream::cover(StampNs from, StampNs to, const Visit& visit) const {
   Coverage coverage;
-  urban_nav_core::StampNs at = from;
+  StampNs at = from;
   auto next =
       std::partition_point(spans_.begin(), spans_.end(), [&](const TwistSpan& span) { return span.to <= from; });
   for (; next != spans_.end() && at < to; ++next) {
     if (next->from > at) {  // gap without a span
-      const urban_nav_core::StampNs end = std::min(next->from, to);
+      const StampNs end = std::min(next->from, to);
       const double bridged = secondsBetween(at, end);
       visit(next == spans_.begin() ? *next : *std::prev(next), bridged);
       coverage.bridged += bridged;
       at = end;
     }
-    const urban_nav_core::StampNs end = std::min(next->to, to);
+    const StampNs end = std::min(next->to, to);
     if (end <= at) continue;
     const double measured = secondsBetween(at, end);
     visit(*next, measured);
@@ -96,4 +95,4 @@ Coverage TwistStream::cover(urban_nav_core::StampNs from, urban_nav_core::StampN
   return coverage;
 }
 
-}  // namespace swf_vo
+}  // namespace urban_nav_core

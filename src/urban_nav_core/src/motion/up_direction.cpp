@@ -1,34 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "motion/up_direction.hpp"
+#include "urban_nav_core/motion/up_direction.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace swf_vo {
-
-using urban_nav_core::MotionInput;
-using urban_nav_core::Pose;
-using urban_nav_core::Quaterniond;
-using urban_nav_core::secondsBetween;
-using urban_nav_core::StampNs;
-using urban_nav_core::Vector3d;
+namespace urban_nav_core {
 
 namespace {
 
-constexpr double kGravity = 9.81;            // m/s^2
+constexpr double kUpGravity = 9.81;          // m/s^2
 constexpr double kFade = 20.0;               // s
 constexpr double kLeastSeconds = 1.0;        // of forces, for an estimate
-constexpr double kVelocitySigma = 0.2;       // m/s: of the change of the velocity, from steps of images
+constexpr double kVelocitySigma = 0.2;       // m/s: of the change of the velocity, from steps of the reference
 constexpr double kAccelerometerTilt = 0.01;  // rad: by the bias and by rotation about the lever arm
 // Forces of a working accelerometer in driving vehicles, as a share of gravity: others are vibration or faults.
-constexpr double kLeastForce = 0.5, kMostForce = 1.5;
+constexpr double kLeastUpForce = 0.5, kMostUpForce = 1.5;
 constexpr std::size_t kMostForces = 4000;
 
 }  // namespace
 
 void UpDirection::add(const MotionInput& input) {
-  const double size = input.specific_force.norm() / kGravity;
-  if (!(size > kLeastForce && size < kMostForce)) return;
+  const double size = input.specific_force.norm() / kUpGravity;
+  if (!(size > kLeastUpForce && size < kMostUpForce)) return;
   if (!forces_.empty() && input.to <= forces_.back().stamp) return;
   forces_.push_back({input.to, input.specific_force});
   if (forces_.size() > kMostForces) forces_.erase(forces_.begin(), forces_.begin() + kMostForces / 2);
@@ -55,13 +48,13 @@ void UpDirection::addStep(StampNs from, StampNs to, const Pose& T_from_to, const
 }
 
 std::optional<UpDirection::Estimate> UpDirection::estimate() const {
-  if (seconds_ < kLeastSeconds || !(impulse_.norm() > kLeastForce * kGravity * seconds_)) return std::nullopt;
-  return Estimate{impulse_.normalized(), std::hypot(kAccelerometerTilt, kVelocitySigma / (kGravity * seconds_))};
+  if (seconds_ < kLeastSeconds || !(impulse_.norm() > kLeastUpForce * kUpGravity * seconds_)) return std::nullopt;
+  return Estimate{impulse_.normalized(), std::hypot(kAccelerometerTilt, kVelocitySigma / (kUpGravity * seconds_))};
 }
 
-void UpDirection::archive(urban_nav_core::Archive& archive) {
+void UpDirection::archive(Archive& archive) {
   archive(forces_, impulse_, velocity_, seconds_);
   archive.require(seconds_ >= 0.0, "a negative duration");
 }
 
-}  // namespace swf_vo
+}  // namespace urban_nav_core

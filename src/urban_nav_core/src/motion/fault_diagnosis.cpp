@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "motion/fault_diagnosis.hpp"
+#include "urban_nav_core/motion/fault_diagnosis.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,8 @@
 #include "urban_nav_core/inertial/axis_map.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 
-namespace swf_vo {
+namespace urban_nav_core {
 
-using urban_nav_core::formatNumber;
-using urban_nav_core::Matrix3d;
-using urban_nav_core::Vector3d;
 using Kind = MotionFault::Kind;
 
 namespace {
@@ -24,7 +21,7 @@ constexpr double kLeastScaleError = 0.08;  // relative
 constexpr double kLongestDelay = 2.0;      // s
 constexpr std::size_t kFewestSteps = 8;
 constexpr double kLeastHistory = 4.0;  // s, required for axes and delays
-constexpr double kDegrees = 180.0 / M_PI;
+constexpr double kFaultDegrees = 180.0 / M_PI;
 
 /// Correlation of pairs of vectors, means removed.
 struct Correlation {
@@ -39,7 +36,7 @@ Correlation correlate(const std::vector<ComparedStep>& steps, int lag, const Sec
   int count = 0;
   for (int pass = 0; pass < 2; ++pass) {
     for (int i = std::max(0, -lag); i + std::max(0, lag) < size; ++i) {
-      const Vector3d& a = steps[static_cast<std::size_t>(i)].by_images;
+      const Vector3d& a = steps[static_cast<std::size_t>(i)].by_reference;
       const Vector3d b = second(steps[static_cast<std::size_t>(i + lag)].by_sensor);
       if (pass == 0) {
         mean_a += a;
@@ -88,7 +85,7 @@ double meanPeriod(const std::vector<ComparedStep>& steps) {
 /// Returns the root mean square difference per second.
 double rootMeanSquare(const std::vector<ComparedStep>& steps) {
   double sum = 0.0;
-  for (const ComparedStep& step : steps) sum += ((step.by_sensor - step.by_images) / step.seconds).squaredNorm();
+  for (const ComparedStep& step : steps) sum += ((step.by_sensor - step.by_reference) / step.seconds).squaredNorm();
   return std::sqrt(sum / static_cast<double>(steps.size()));
 }
 
@@ -109,9 +106,9 @@ std::string biasSentence(const DiagnosisInput& input) {
 }
 
 /// Transforms the steps to the axes of the device, which are those of its messages.
-std::vector<ComparedStep> inDevice(std::vector<ComparedStep> steps, const urban_nav_core::Quaterniond& q_base_sensor) {
+std::vector<ComparedStep> inDevice(std::vector<ComparedStep> steps, const Quaterniond& q_base_sensor) {
   for (ComparedStep& step : steps) {
-    step.by_images = q_base_sensor.conjugate() * step.by_images;
+    step.by_reference = q_base_sensor.conjugate() * step.by_reference;
     step.by_sensor = q_base_sensor.conjugate() * step.by_sensor;
   }
   return steps;
@@ -125,7 +122,7 @@ struct Axes {
 /// Returns the permutation of axes with the highest correlation of rotations.
 Axes findAxes(const std::vector<ComparedStep>& steps) {
   Axes best;
-  for (const Matrix3d& map : urban_nav_core::allAxisMaps()) {
+  for (const Matrix3d& map : allAxisMaps()) {
     const double cosine = correlate(steps, 0, [&](const Vector3d& value) -> Vector3d { return map * value; }).cosine;
     if (cosine > best.cosine) best = {map, cosine};
   }
@@ -137,13 +134,14 @@ Axes findAxes(const std::vector<ComparedStep>& steps) {
 MotionFault diagnoseGyroscope(const std::vector<ComparedStep>& steps, const DiagnosisInput& input) {
   if (input.repeated_s > kFrozen) return {Kind::Frozen, frozenSentence(input.repeated_s)};
   if (steps.size() < kFewestSteps)
-    return {Kind::Unknown, "its rates contradict the images: check its mounting and its driver"};
+    return {Kind::Unknown, "its rates contradict the " + input.reference + ": check its mounting and its driver"};
   const bool is_biased = !input.bias.isZero();
   const Correlation plain = correlate(steps, 0, same);
   if (is_biased && plain.cosine > kGoodCorrelation) return {Kind::Bias, biasSentence(input)};
   if (plain.cosine > kLinear && std::abs(plain.ratio - 1.0) > kLeastScaleError) {
-    const std::string figure = "its rates are " + formatNumber(plain.ratio, 3) + " times those of the images";
-    if (plain.ratio > 0.5 * kDegrees && plain.ratio < 2.0 * kDegrees)
+    const std::string figure =
+        "its rates are " + formatNumber(plain.ratio, 3) + " times those of the " + input.reference;
+    if (plain.ratio > 0.5 * kFaultDegrees && plain.ratio < 2.0 * kFaultDegrees)
       return {Kind::Units, figure + ": they are in degrees, publish rad/s"};
     return {Kind::Scale, figure + ": calibrate the gyroscope's scale"};
   }
@@ -153,41 +151,43 @@ MotionFault diagnoseGyroscope(const std::vector<ComparedStep>& steps, const Diag
   const Lag lag = findLag(steps, period);
   if (is_long && axes.cosine > std::max({kGoodCorrelation, plain.cosine + kAxesGain, lag.cosine}))
     return {Kind::Axes, "its axes are wrong (correlation " + formatNumber(axes.cosine, 2) + " if x, y, z are read as " +
-                            urban_nav_core::printAxisMap(axes.map) +
+                            printAxisMap(axes.map) +
                             "): correct the axes of its driver, or its rotation on /tf_static"};
   if (is_long && lag.steps != 0 && lag.cosine > kGoodCorrelation)
     return {Kind::Delay, delaySentence(lag.steps * period)};
   if (is_biased) return {is_long ? Kind::Bias : Kind::Unknown, biasSentence(input)};
-  return {Kind::Unknown, "its rates differ from those of the images by " +
-                             formatNumber(kDegrees * rootMeanSquare(steps), 2) +
+  return {Kind::Unknown, "its rates differ from those of the " + input.reference + " by " +
+                             formatNumber(kFaultDegrees * rootMeanSquare(steps), 2) +
                              " deg/s (root mean square): check its mounting and its driver"};
 }
 
 MotionFault diagnoseWheels(const std::vector<ComparedStep>& steps, const DiagnosisInput& input) {
   if (input.repeated_s > kFrozen) return {Kind::Frozen, frozenSentence(input.repeated_s)};
   if (steps.size() < kFewestSteps)
-    return {Kind::Unknown, "their speed contradicts the images: they slip, or their calibration is wrong"};
-  double by_images = 0.0, by_wheels = 0.0, both = 0.0;
+    return {Kind::Unknown,
+            "their speed contradicts the " + input.reference + ": they slip, or their calibration is wrong"};
+  double by_reference = 0.0, by_wheels = 0.0, both = 0.0;
   for (const ComparedStep& step : steps) {
-    by_images += step.by_images.x() * step.by_images.x();
+    by_reference += step.by_reference.x() * step.by_reference.x();
     by_wheels += step.by_sensor.x() * step.by_sensor.x();
-    both += step.by_images.x() * step.by_sensor.x();
+    both += step.by_reference.x() * step.by_sensor.x();
   }
-  const double ratio = by_images > 0.0 ? both / by_images : 0.0;
+  const double ratio = by_reference > 0.0 ? both / by_reference : 0.0;
   const bool fits =
-      by_images > 0.0 && by_wheels > 0.0 && std::abs(both) > kGoodCorrelation * std::sqrt(by_images * by_wheels);
+      by_reference > 0.0 && by_wheels > 0.0 && std::abs(both) > kGoodCorrelation * std::sqrt(by_reference * by_wheels);
   if (fits && ratio < 0.0)
-    return {Kind::Axes, "their speed is " + formatNumber(ratio, 3) +
-                            " times that of the images: forward and backward are exchanged, correct their sign"};
+    return {Kind::Axes, "their speed is " + formatNumber(ratio, 3) + " times that of the " + input.reference +
+                            ": forward and backward are exchanged, correct their sign"};
   if (fits && std::abs(ratio - 1.0) > kLeastScaleError)
-    return {Kind::Scale, "their speed is " + formatNumber(ratio, 3) +
-                             " times that of the images: correct the radius of the wheels or the counts of a turn"};
+    return {Kind::Scale, "their speed is " + formatNumber(ratio, 3) + " times that of the " + input.reference +
+                             ": correct the radius of the wheels or the counts of a turn"};
   const double period = meanPeriod(steps);
   const Lag lag = findLag(steps, period);
   if (period * static_cast<double>(steps.size()) > kLeastHistory && lag.steps != 0 && lag.cosine > kGoodCorrelation)
     return {Kind::Delay, delaySentence(lag.steps * period)};
-  return {Kind::Unknown, "their speed differs from that of the images by " + formatNumber(rootMeanSquare(steps), 2) +
+  return {Kind::Unknown, "their speed differs from that of the " + input.reference + " by " +
+                             formatNumber(rootMeanSquare(steps), 2) +
                              " m/s (root mean square): they slip, or their calibration is wrong"};
 }
 
-}  // namespace swf_vo
+}  // namespace urban_nav_core

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "motion/motion_calibration.hpp"
+#include "urban_nav_core/motion/motion_calibration.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace swf_vo {
-
-using urban_nav_core::Vector3d;
+namespace urban_nav_core {
 
 namespace {
 
@@ -15,7 +13,7 @@ constexpr int kStates = MotionStates::kSize;
 // Random walks per square root of a second: of the bias, 2.5 times that of EuRoC's sensor (ADIS16448); of clocks, 300
 // ppm.
 constexpr double kBiasWalk = 5e-5, kOffsetWalk = 3e-4, kScaleWalk = 2e-4;
-// Resolution of encoders and of their stamps at each frame, independent of that of images: m, rad.
+// Resolution of encoders and of their stamps at each frame, independent of that of the reference: m, rad.
 constexpr double kForwardEnd = 2e-3, kTurnEnd = 2e-3;
 // Gain of the noise estimate per innovation, and limit of the normalised innovation squared.
 constexpr double kNoiseGain = 0.01, kMostNis = 9.0;
@@ -69,10 +67,10 @@ void MotionCalibration::advance(double seconds) {
   states_.covariance = P_.topLeftCorner<kStates, kStates>();
 }
 
-void MotionCalibration::update(const ImageStep& images, bool follows, const std::optional<GyroscopeStep>& gyroscope,
-                               const std::optional<WheelStep>& wheels) {
+void MotionCalibration::update(const ReferenceStep& reference, bool follows,
+                               const std::optional<GyroscopeStep>& gyroscope, const std::optional<WheelStep>& wheels) {
   constexpr int kBefore = kStates, kNow = kStates + kEnds;
-  beginStep(images, follows);
+  beginStep(reference, follows);
   if (gyroscope) {
     for (int axis = 0; axis < 3; ++axis) {
       Row row = Row::Zero();
@@ -80,7 +78,7 @@ void MotionCalibration::update(const ImageStep& images, bool follows, const std:
       row[MotionStates::kImuOffset] = gyroscope->offset[axis];
       row[kBefore + axis] = -1.0;
       row[kNow + axis] = 1.0;
-      measure(row, gyroscope->error[axis], noise_[0] * gyroscope->variance + images.rotation_drift, 0);
+      measure(row, gyroscope->error[axis], noise_[0] * gyroscope->variance + reference.rotation_drift, 0);
     }
   }
   if (wheels) {
@@ -89,7 +87,7 @@ void MotionCalibration::update(const ImageStep& images, bool follows, const std:
     row[MotionStates::kWheelOffset] = wheels->forward.offset;
     row[kBefore + 3] = -1.0;
     row[kNow + 3] = 1.0;
-    measure(row, wheels->forward.error, noise_[1] * wheels->forward.variance + images.forward_drift, 1);
+    measure(row, wheels->forward.error, noise_[1] * wheels->forward.variance + reference.forward_drift, 1);
     row.setZero();
     row[MotionStates::kTurnScale] = wheels->turn.scale;
     row[MotionStates::kWheelOffset] = wheels->turn.offset;
@@ -97,17 +95,18 @@ void MotionCalibration::update(const ImageStep& images, bool follows, const std:
       row[kBefore + end] = -1.0;
       row[kNow + end] = 1.0;
     }
-    measure(row, wheels->turn.error, noise_[1] * wheels->turn.variance + images.rotation_drift, 1);
+    measure(row, wheels->turn.error, noise_[1] * wheels->turn.variance + reference.rotation_drift, 1);
   }
   endStep();
 }
 
-void MotionCalibration::beginStep(const ImageStep& images, bool follows) {
+void MotionCalibration::beginStep(const ReferenceStep& reference, bool follows) {
   change_.head<kStates>().setZero();
   change_.tail<kEnds>().setZero();
   if (!follows) change_.segment<kEnds>(kStates).setZero();
   Eigen::Matrix<double, kEnds, 1> ends;
-  ends << Vector3d::Constant(images.rotation_end), images.forward_end + kForwardEnd * kForwardEnd, kTurnEnd * kTurnEnd;
+  ends << Vector3d::Constant(reference.rotation_end), reference.forward_end + kForwardEnd * kForwardEnd,
+      kTurnEnd * kTurnEnd;
   const auto set = [&](int first) {
     P_.middleRows<kEnds>(first).setZero();
     P_.middleCols<kEnds>(first).setZero();
@@ -141,9 +140,9 @@ void MotionCalibration::endStep() {
   states_.covariance = P_.topLeftCorner<kStates, kStates>();
 }
 
-void MotionCalibration::archive(urban_nav_core::Archive& archive) {
+void MotionCalibration::archive(Archive& archive) {
   archive(states_.mean, P_, change_, noise_);
   if (archive.isReading()) states_.covariance = P_.topLeftCorner<kStates, kStates>();
 }
 
-}  // namespace swf_vo
+}  // namespace urban_nav_core

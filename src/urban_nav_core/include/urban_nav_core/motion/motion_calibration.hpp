@@ -6,28 +6,28 @@
 #include "urban_nav_core/geometry/so3.hpp"
 #include "urban_nav_core/io/archive.hpp"
 
-namespace swf_vo {
+namespace urban_nav_core {
 
-/// Step between two frames, measured by images only. One part of its error accumulates over steps (drift); the other is
-/// the error of the pose at the end of the step, which the next step reverses.
-struct ImageStep {
+/// Step between two frames, measured by the reference (images or sweeps) only. One part of its error accumulates over
+/// steps (drift); the other is the error of the pose at the end of the step, which the next step reverses.
+struct ReferenceStep {
   double seconds = 0.0;
-  urban_nav_core::Vector3d rotation = urban_nav_core::Vector3d::Zero();  ///< rotation vector of R_from_to of base_link
-  double forward = 0.0;                                                  ///< m, along x of base_link at `from`
-  double rotation_drift = 0.0, rotation_end = 0.0;                       ///< variances about an axis, rad^2
-  double forward_drift = 0.0, forward_end = 0.0;                         ///< variances, m^2
+  Vector3d rotation = Vector3d::Zero();             ///< rotation vector of R_from_to of base_link
+  double forward = 0.0;                             ///< m, along x of base_link at `from`
+  double rotation_drift = 0.0, rotation_end = 0.0;  ///< variances about an axis, rad^2
+  double forward_drift = 0.0, forward_end = 0.0;    ///< variances, m^2
 };
 
-/// Difference between a step by images and by a gyroscope, in the axes of base_link at its end: error = images -
-/// gyroscope = bias d(bias) + offset d(offset) + noise, with d = true - estimated.
+/// Difference between a step by the reference and by a gyroscope, in the axes of base_link at its end: error =
+/// reference - gyroscope = bias d(bias) + offset d(offset) + noise, with d = true - estimated.
 struct GyroscopeStep {
-  urban_nav_core::Vector3d error = urban_nav_core::Vector3d::Zero();   ///< rad
-  urban_nav_core::Matrix3d bias = urban_nav_core::Matrix3d::Zero();    ///< s
-  urban_nav_core::Vector3d offset = urban_nav_core::Vector3d::Zero();  ///< rad/s
-  double variance = 0.0;                                               ///< noise about an axis, rad^2
+  Vector3d error = Vector3d::Zero();   ///< rad
+  Matrix3d bias = Matrix3d::Zero();    ///< s
+  Vector3d offset = Vector3d::Zero();  ///< rad/s
+  double variance = 0.0;               ///< noise about an axis, rad^2
 };
 
-/// Difference between a step by images and by wheels, as in GyroscopeStep: along x (m), and about z (rad).
+/// Difference between a step by the reference and by wheels, as in GyroscopeStep: along x (m), and about z (rad).
 struct WheelStep {
   struct Part {
     double error = 0.0, scale = 0.0, offset = 0.0, variance = 0.0;
@@ -45,7 +45,7 @@ struct MotionStates {
   Vector mean = Vector::Zero();
   Matrix covariance = Matrix::Identity();
 
-  urban_nav_core::Vector3d bias() const { return mean.segment<3>(kBias); }
+  Vector3d bias() const { return mean.segment<3>(kBias); }
 };
 
 /// Standard deviations of the priors.
@@ -54,16 +54,17 @@ constexpr double kOffsetPrior = 0.05;      ///< s
 constexpr double kSpeedScalePrior = 0.05;  ///< relative
 constexpr double kTurnScalePrior = 0.2;    ///< relative: tracks and tyres scrub
 
-/// Estimates bias, scales and time offsets of motion sensors from steps measured by images only, with an extended
-/// Kalman filter whose states are random walks. The pose error of the frame between two successive steps is a state as
-/// well, so that errors of images and encoders accumulate at the correct rate. The images are independent of the
-/// sensors, so no information is counted twice (docs/derivations/motion_sensors.md). Not thread-safe.
+/// Estimates bias, scales and time offsets of motion sensors from steps measured by the reference only, with an
+/// extended Kalman filter whose states are random walks. The pose error of the frame between two successive steps is a
+/// state as well, so that errors of the reference and of encoders accumulate at the correct rate. The reference is
+/// independent of the sensors, so no information is counted twice (docs/derivations/motion_sensors.md). Not
+/// thread-safe.
 class MotionCalibration {
  public:
   MotionCalibration();
 
   /// Updates with a step. `follows`: it begins where the previous step ended.
-  void update(const ImageStep& images, bool follows, const std::optional<GyroscopeStep>& gyroscope,
+  void update(const ReferenceStep& reference, bool follows, const std::optional<GyroscopeStep>& gyroscope,
               const std::optional<WheelStep>& wheels);
   /// Adds process noise for a time span, s.
   void advance(double seconds);
@@ -76,7 +77,7 @@ class MotionCalibration {
   double gyroscopeNoise() const { return noise_[0]; }
   double wheelNoise() const { return noise_[1]; }
 
-  void archive(urban_nav_core::Archive& archive);
+  void archive(Archive& archive);
 
  private:
   static constexpr int kEnds = 5;  // end states of a frame: rotation, forward, and yaw by wheels
@@ -84,7 +85,7 @@ class MotionCalibration {
   using Row = Eigen::Matrix<double, kAll, 1>;
   using Joint = Eigen::Matrix<double, kAll, kAll>;
 
-  void beginStep(const ImageStep& images, bool follows);
+  void beginStep(const ReferenceStep& reference, bool follows);
   void measure(const Row& row, double error, double variance, int sensor);
   void endStep();
   void forget(int first, int count);
@@ -96,4 +97,4 @@ class MotionCalibration {
   Eigen::Vector2d noise_ = Eigen::Vector2d::Ones();  // gyroscope, wheels
 };
 
-}  // namespace swf_vo
+}  // namespace urban_nav_core

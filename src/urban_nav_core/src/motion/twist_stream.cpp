@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "motion/twist_stream.hpp"
+#include "urban_nav_core/motion/twist_stream.hpp"
 
 #include <cmath>
 #include <iterator>
 
-namespace swf_vo {
-
-using urban_nav_core::MotionInput;
-using urban_nav_core::StampNs;
-using urban_nav_core::Vector3d;
-using urban_nav_core::Vector6d;
+namespace urban_nav_core {
 
 namespace {
 
-// Maximum delay of a sensor relative to the images, and tolerated shares of a span without measurement.
+// Maximum delay of a sensor relative to the reference, and tolerated shares of a span without measurement.
 constexpr double kLongestExtrapolation = 0.12;  // s
 constexpr double kExtrapolatedShare = 0.1, kBridgedShare = 0.2;
 // Relative difference below which numbers are equal to all digits of a message: stamps do not divide evenly.
@@ -40,13 +35,13 @@ bool Coverage::suffices() const {
 }
 
 void TwistStream::add(const MotionInput& input) {
-  const double seconds = urban_nav_core::secondsBetween(input.from, input.to);
+  const double seconds = secondsBetween(input.from, input.to);
   if (!(seconds > 0.0) || !input.T_from_to.isFinite() || !input.information.allFinite()) return;
   if (!spans_.empty() && input.from < spans_.back().to) return;
   TwistSpan span;
   span.from = input.from;
   span.to = input.to;
-  span.twist = urban_nav_core::logSe3(input.T_from_to) / seconds;
+  span.twist = logSe3(input.T_from_to) / seconds;
   for (int i = 0; i < 6; ++i)
     if (input.information(i, i) > 0.0) span.density[i] = 1.0 / (input.information(i, i) * seconds);
   if (!spans_.empty()) {
@@ -76,11 +71,11 @@ const TwistSpan& TwistStream::at(StampNs stamp) const {
   return found == spans_.end() ? spans_.back() : *found;
 }
 
-void TwistStream::archive(urban_nav_core::Archive& archive) {
+void TwistStream::archive(Archive& archive) {
   archive(spans_, repeated_, scatter_, walk_);
   for (std::size_t i = 0; i < spans_.size(); ++i)
     archive.require(spans_[i].from < spans_[i].to && (i == 0 || spans_[i - 1].to <= spans_[i].from),
                     "spans of a motion sensor are not in order of time");
 }
 
-}  // namespace swf_vo
+}  // namespace urban_nav_core

@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "motion/dead_reckoning.hpp"
+#include "urban_nav_core/motion/dead_reckoning.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-namespace swf_vo {
-
-using urban_nav_core::expSo3;
-using urban_nav_core::leftJacobianSo3;
-using urban_nav_core::Matrix3d;
-using urban_nav_core::Matrix6d;
-using urban_nav_core::Quaterniond;
-using urban_nav_core::skew;
-using urban_nav_core::StampNs;
-using urban_nav_core::Vector3d;
+namespace urban_nav_core {
 
 namespace {
 
@@ -42,7 +33,7 @@ class Integration {
         R_base_odom_(q_odom_base.conjugate().toRotationMatrix()),
         normal_(R_base_odom_ * evidence.ground->normal()) {}
 
-  /// Rotates by the gyroscope, between two times on the camera clock.
+  /// Rotates by the gyroscope, between two times on the clock of the reference.
   Coverage turn(StampNs from, StampNs to) {
     const MotionStates& states = *evidence_.states;
     const TwistStream& stream = *evidence_.gyroscope;
@@ -111,20 +102,30 @@ class Integration {
     Eigen::Matrix<double, kShared, kShared> P = Eigen::Matrix<double, kShared, kShared>::Zero();
     P.topLeftCorner<MotionStates::kSize, MotionStates::kSize>() = evidence_.states->covariance;
     P.bottomRightCorner<2, 2>() = evidence_.ground->covariance;
+    Reckoned result;
+    result.T_from_to = Pose(q_, t_);
+    result.covariance_alone = total(P);
     // An error common to all steps grows linearly with time, its variance with the square: this is its increment.
     // Delays affect the ends of the chain only.
-    const double share = (2.0 * evidence_.since_measured + seconds) / seconds;
-    for (int i = 0; i < kShared; ++i)
-      if (i != MotionStates::kImuOffset && i != MotionStates::kWheelOffset) shared_.col(i) *= std::sqrt(share);
-    Reckoned result;
-    result.T_from_to = urban_nav_core::Pose(q_, t_);
-    result.covariance = covariance_ + shared_ * P * shared_.transpose();
-    result.covariance = (0.5 * (result.covariance + result.covariance.transpose())).eval();
+    const auto share = [&](double unmeasured) { return std::sqrt((2.0 * unmeasured + seconds) / seconds); };
+    const double turn = share(evidence_.turn_unmeasured), forward = share(evidence_.forward_unmeasured);
+    for (int i = 0; i < kShared; ++i) {
+      if (i == MotionStates::kImuOffset || i == MotionStates::kWheelOffset) continue;
+      const bool turns = i < MotionStates::kImuOffset || i == MotionStates::kTurnScale;
+      shared_.col(i) *= turns ? turn : forward;
+    }
+    result.covariance = total(P);
+    result.has_gyroscope = evidence_.gyroscope != nullptr;
     result.has_translation = evidence_.wheels != nullptr;
     return result;
   }
 
  private:
+  Matrix6d total(const Eigen::Matrix<double, kShared, kShared>& P) const {
+    const Matrix6d sum = covariance_ + shared_ * P * shared_.transpose();
+    return 0.5 * (sum + sum.transpose());
+  }
+
   void rotate(const Vector3d& turn, const Matrix3d& variance) {
     q_ = (q_ * expSo3(turn)).normalized();
     covariance_.bottomRightCorner<3, 3>() += variance;
@@ -177,7 +178,7 @@ double rateDensity(const TwistStream& gyroscope, const TwistSpan& span) {
 
 std::optional<Reckoned> reckon(const MotionEvidence& evidence, StampNs from, StampNs to,
                                const Quaterniond& q_odom_base) {
-  const double seconds = urban_nav_core::secondsBetween(from, to);
+  const double seconds = secondsBetween(from, to);
   const bool turns = evidence.gyroscope != nullptr && !evidence.gyroscope->isEmpty(),
              drives = evidence.wheels != nullptr && !evidence.wheels->isEmpty();
   if (!(seconds > 0.0) || (!turns && !drives)) return std::nullopt;
@@ -209,4 +210,4 @@ std::optional<Reckoned> reckon(const MotionEvidence& evidence, StampNs from, Sta
   return integration.finish(seconds);
 }
 
-}  // namespace swf_vo
+}  // namespace urban_nav_core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "motion/motion_sensors.hpp"
+#include "urban_nav_core/motion/motion_sensors.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,17 +7,12 @@
 #include <functional>
 
 #include "drive.hpp"
+#include "urban_nav_core/geometry/small_matrices.hpp"
 
-namespace swf_vo {
+namespace urban_nav_core {
 namespace {
 
-using urban_nav_core::MotionInput;
-using urban_nav_core::Pose;
-using urban_nav_core::Vector6d;
-
-constexpr int kFrame = 50;  // ms
-
-const Pose kCameraPlace(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), Eigen::Vector3d(0.3, 0.05, 1.1));
+constexpr int kMotionFrame = 50;  // ms
 
 const LevelDrive& longDrive() {
   static const LevelDrive drive(45.0);
@@ -33,13 +28,16 @@ class Play {
       : sensors_(longDrive(), errors, seed), change_(std::move(change)), with_wheels_(wheels) {}
 
   void until(int end_ms) {
-    for (; now_ + kFrame <= end_ms; now_ += kFrame) {
-      feed(now_ + kFrame);
-      motion.addFrame(frame_, 1e-3 * kFrame, true, false);
-      motion.check(now_ * kMillisecond, (now_ + kFrame) * kMillisecond,
-                   kCameraPlace.inverse() * longDrive().between(now_, now_ + kFrame) * kCameraPlace);
-      Settled settled = sensors_.step(frame_, now_, now_ + kFrame);
-      if (frame_++ == 0) settled.from_previous.from = settled.from_previous.to;
+    for (; now_ + kMotionFrame <= end_ms; now_ += kMotionFrame) {
+      feed(now_ + kMotionFrame);
+      motion.addFrame(frame_, 1e-3 * kMotionFrame, true, false);
+      MeasuredStep exact;
+      exact.step.from = now_ * kMillisecond;
+      exact.step.to = (now_ + kMotionFrame) * kMillisecond;
+      exact.step.T_from_to = longDrive().between(now_, now_ + kMotionFrame);
+      motion.check(exact);
+      MeasuredStep settled = sensors_.step(frame_, now_, now_ + kMotionFrame);
+      if (frame_++ == 0) settled.step.from = settled.step.to;
       pending_.push_back(settled);
       if (pending_.size() <= 10) continue;
       motion.learn(pending_.front());
@@ -47,16 +45,16 @@ class Play {
     }
   }
 
-  /// Advances without images, and returns the prediction.
-  std::optional<ProcessInput> outage(int end_ms) {
+  /// Advances without the reference, and returns the prediction.
+  std::optional<Reckoned> outage(int end_ms) {
     const int from = now_;
     feed(end_ms);
     now_ = end_ms;
-    return motion.predict(from * kMillisecond, end_ms * kMillisecond, longDrive().at(from) * kCameraPlace);
+    return motion.predict(from * kMillisecond, end_ms * kMillisecond, longDrive().at(from).q());
   }
 
   int now() const { return now_; }
-  MotionSensors motion{kCameraPlace};
+  MotionSensors motion;
 
  private:
   void feed(int end_ms) {
@@ -76,8 +74,8 @@ class Play {
   Change change_;
   bool with_wheels_;
   int now_ = 0, rates_ = 0, rolls_ = 0;
-  FrameId frame_ = 0;
-  std::deque<Settled> pending_;
+  std::int64_t frame_ = 0;
+  std::deque<MeasuredStep> pending_;
 };
 
 TEST(MotionSensors, FindBiasScaleAndDelayWithinTenSeconds) {
@@ -114,7 +112,7 @@ TEST(MotionSensors, BiasIsStatedInTheAxesOfTheImu) {
   EXPECT_GT(expected.y(), 0.07);
 }
 
-// 2.5 s without images while turning: the error corresponds to the covariance, over many draws of all errors.
+// 2.5 s without the reference while turning: the error corresponds to the covariance, over many draws of all errors.
 TEST(MotionSensors, OutageIsBridgedWithTheCovarianceOfThePrediction) {
   constexpr int kDraws = 24;
   double nees = 0.0, worst_m = 0.0, worst_rad = 0.0;
@@ -125,11 +123,11 @@ TEST(MotionSensors, OutageIsBridgedWithTheCovarianceOfThePrediction) {
     Play play(errors, seed);
     play.until(12'000);
     const int from = play.now();
-    const std::optional<ProcessInput> u = play.outage(from + 2500);
+    const std::optional<Reckoned> u = play.outage(from + 2500);
     ASSERT_TRUE(u);
-    const Pose truth = kCameraPlace.inverse() * longDrive().between(from, from + 2500) * kCameraPlace;
-    const Vector6d e = urban_nav_core::boxMinus(truth, u->T_from_to);
-    nees += e.dot(u->information * e) / kDraws;
+    const Pose truth = longDrive().between(from, from + 2500);
+    const Vector6d e = boxMinus(truth, u->T_from_to);
+    nees += e.dot(SmallCholesky<6>(u->covariance).solve(e)) / kDraws;
     worst_m = std::max(worst_m, distanceBetween(truth, u->T_from_to));
     worst_rad = std::max(worst_rad, angleBetween(truth, u->T_from_to));
   }
@@ -144,12 +142,13 @@ TEST(MotionSensors, WithoutWheelsTheRotationGoesOnAndTheTranslationIsUnknown) {
   Play play(DriveErrors(), 3, {}, false);
   play.until(12'000);
   const int from = play.now();
-  const std::optional<ProcessInput> u = play.outage(from + 2500);
+  const std::optional<Reckoned> u = play.outage(from + 2500);
   ASSERT_TRUE(u);
-  EXPECT_TRUE(u->information.topLeftCorner(3, 3).isZero());
-  const Pose truth = kCameraPlace.inverse() * longDrive().between(from, from + 2500) * kCameraPlace;
-  const Eigen::Vector3d e = urban_nav_core::boxMinus(truth, Pose(u->T_from_to.q(), truth.t())).tail<3>();
-  EXPECT_LT(e.dot(u->information.bottomRightCorner<3, 3>() * e), 16.3);  // 99.9 % of 3 degrees of freedom
+  EXPECT_FALSE(u->has_translation);
+  const Pose truth = longDrive().between(from, from + 2500);
+  const Eigen::Vector3d e = boxMinus(truth, Pose(u->T_from_to.q(), truth.t())).tail<3>();
+  EXPECT_LT(e.dot(SmallCholesky<3>(Matrix3d(u->covariance.bottomRightCorner<3, 3>())).solve(e)),
+            16.3);  // 99.9 % of 3 degrees of freedom
 }
 
 // Common errors of the steps of an outage accumulate as over a single step.
@@ -160,12 +159,12 @@ TEST(MotionSensors, StepsOfAChainAreAsUncertainAsItIs) {
   whole.until(3000);
   steps.until(3000);
   const int from = whole.now();
-  const double one = 1.0 / whole.outage(from + 2500)->information.bottomRightCorner<3, 3>().diagonal().mean();
+  const double one = whole.outage(from + 2500)->covariance.bottomRightCorner<3, 3>().diagonal().mean();
   double sum = 0.0;
   for (int i = 0; i < 50; ++i) {
-    const std::optional<ProcessInput> u = steps.outage(from + 50 * (i + 1));
+    const std::optional<Reckoned> u = steps.outage(from + 50 * (i + 1));
     ASSERT_TRUE(u);
-    sum += 1.0 / u->information.bottomRightCorner<3, 3>().diagonal().mean();
+    sum += u->covariance.bottomRightCorner<3, 3>().diagonal().mean();
     steps.motion.addFrame(1000 + i, 0.05, false, true);
   }
   EXPECT_NEAR(sum / one, 1.0, 0.2);
@@ -181,9 +180,8 @@ class WrongGyroscope : public ::testing::TestWithParam<WrongSensor> {};
 
 Change turned(const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& map) {
   return [map](MotionInput& input, int) {
-    if (input.source != urban_nav_core::MotionSource::Gyroscope) return;
-    input.T_from_to =
-        Pose(urban_nav_core::expSo3(map(urban_nav_core::logSo3(input.T_from_to.q()))), Eigen::Vector3d::Zero());
+    if (input.source != MotionSource::Gyroscope) return;
+    input.T_from_to = Pose(expSo3(map(logSo3(input.T_from_to.q()))), Eigen::Vector3d::Zero());
   };
 }
 
@@ -211,14 +209,14 @@ INSTANTIATE_TEST_SUITE_P(
                     "bias"},
         WrongSensor{"Frozen",
                     [last = Pose()](MotionInput& input, int ms) mutable {
-                      if (input.source != urban_nav_core::MotionSource::Gyroscope) return;
+                      if (input.source != MotionSource::Gyroscope) return;
                       if (ms < 6000) last = input.T_from_to;
                       input.T_from_to = last;
                     },
                     "frozen"},
         WrongSensor{"Late",
                     [](MotionInput& input, int) {
-                      if (input.source != urban_nav_core::MotionSource::Gyroscope) return;
+                      if (input.source != MotionSource::Gyroscope) return;
                       input.from += 1000 * kMillisecond;
                       input.to += 1000 * kMillisecond;
                     },
@@ -236,9 +234,9 @@ TEST(MotionSensors, ThatGoWrongPredictNothingFromTheFirstStepOn) {
       false);
   play.until(10'000);
   EXPECT_TRUE(play.motion.estimates().uses_gyroscope);
-  play.until(10'000 + 2 * kFrame);
+  play.until(10'000 + 2 * kMotionFrame);
   EXPECT_TRUE(play.motion.estimates().uses_gyroscope);  // fault not yet detected
-  EXPECT_FALSE(play.outage(play.now() + kFrame));
+  EXPECT_FALSE(play.outage(play.now() + kMotionFrame));
 }
 
 TEST(MotionSensors, ThatRepeatTheirNumbersPredictNothing) {
@@ -255,25 +253,23 @@ TEST(MotionSensors, ThatRepeatTheirNumbersPredictNothing) {
 }
 
 TEST(MotionSensors, BeforeTheyHaveMovedPredictNothing) {
-  MotionSensors motion(kCameraPlace);
+  MotionSensors motion;
   for (int i = 0; i < 100; ++i) {
     std::vector<MotionInput> rest(5);
     for (int k = 0; k < 5; ++k) {
       MotionInput& input = rest[static_cast<std::size_t>(k)];
-      input.source = urban_nav_core::MotionSource::Gyroscope;
-      input.from = (kFrame * i + 10 * k) * kMillisecond;
+      input.source = MotionSource::Gyroscope;
+      input.from = (kMotionFrame * i + 10 * k) * kMillisecond;
       input.to = input.from + 10 * kMillisecond;
-      input.T_from_to = Pose(urban_nav_core::expSo3(Eigen::Vector3d(0.0, 0.0, 1e-6 * ((7 * i + k) % 5))),
-                             Eigen::Vector3d::Zero());
+      input.T_from_to = Pose(expSo3(Eigen::Vector3d(0.0, 0.0, 1e-6 * ((7 * i + k) % 5))), Eigen::Vector3d::Zero());
     }
     motion.add(rest);
-    motion.addFrame(i, 1e-3 * kFrame, true, false);
-    Settled settled;
+    motion.addFrame(i, 1e-3 * kMotionFrame, true, false);
+    MeasuredStep settled;
     settled.frame = i;
-    settled.stamp = settled.from_previous.to = (i + 1) * kFrame * kMillisecond;
-    settled.from_previous.from = i == 0 ? settled.stamp : i * kFrame * kMillisecond;
-    settled.from_previous.covariance = settled.from_previous.drift_covariance =
-        1e-8 * urban_nav_core::Matrix6d::Identity();
+    settled.stamp = settled.step.to = (i + 1) * kMotionFrame * kMillisecond;
+    settled.step.from = i == 0 ? settled.stamp : i * kMotionFrame * kMillisecond;
+    settled.step.covariance = settled.step.drift_covariance = 1e-8 * Matrix6d::Identity();
     motion.learn(settled);
   }
   EXPECT_TRUE(motion.estimates().has_gyroscope);
@@ -315,28 +311,28 @@ TEST(MotionSensors, GoOnFromTheirState) {
   Play one{DriveErrors()}, other{DriveErrors()};
   one.until(8000);
   other.until(8000);
-  urban_nav_core::Archive writer;
+  Archive writer;
   writer(other.motion);
   const std::string state = writer.take();
-  other.motion = MotionSensors(kCameraPlace);
-  urban_nav_core::Archive reader(state, "state");
+  other.motion = MotionSensors();
+  Archive reader(state, "state");
   reader(other.motion);
   reader.finish();
   one.until(12'000);
   other.until(12'000);
   const auto a = one.outage(14'000), b = other.outage(14'000);
   ASSERT_TRUE(a && b);
-  EXPECT_EQ(a->information, b->information);
+  EXPECT_EQ(a->covariance, b->covariance);
   EXPECT_EQ(a->T_from_to.t(), b->T_from_to.t());
 }
 
 TEST(MotionSensors, WithoutStatementsNothingIsPredicted) {
-  MotionSensors motion(kCameraPlace);
+  MotionSensors motion;
   motion.add({MotionInput()});
   motion.addFrame(0, 0.0, true, false);
-  EXPECT_FALSE(motion.predict(0, 50 * kMillisecond, kCameraPlace));
+  EXPECT_FALSE(motion.predict(0, 50 * kMillisecond, Quaterniond::Identity()));
   EXPECT_FALSE(motion.estimates().has_gyroscope || motion.estimates().has_wheels);
 }
 
 }  // namespace
-}  // namespace swf_vo
+}  // namespace urban_nav_core

@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "motion/motion_sensors.hpp"
+#include "urban_nav_core/motion/motion_sensors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "urban_nav_core/geometry/small_matrices.hpp"
 #include "urban_nav_core/inertial/rotation_preintegration.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 
-namespace swf_vo {
-
-using urban_nav_core::Health;
-using urban_nav_core::logSo3;
-using urban_nav_core::Matrix3d;
-using urban_nav_core::Matrix6d;
-using urban_nav_core::MotionInput;
-using urban_nav_core::MotionSource;
-using urban_nav_core::Pose;
-using urban_nav_core::Quaterniond;
-using urban_nav_core::secondsBetween;
-using urban_nav_core::StampNs;
-using urban_nav_core::Vector3d;
-using urban_nav_core::Vector6d;
+namespace urban_nav_core {
 
 namespace {
 
@@ -43,16 +31,16 @@ double meanDiagonal(const Matrix6d& covariance, int first, int count) {
   return std::max(0.0, covariance.diagonal().segment(first, count).mean());
 }
 
-ImageStep toImageStep(const urban_nav_core::RelativePose& step) {
-  ImageStep images;
-  images.seconds = secondsBetween(step.from, step.to);
-  images.rotation = logSo3(step.T_from_to.q());
-  images.forward = step.T_from_to.t().x();
-  images.rotation_drift = meanDiagonal(step.drift_covariance, 3, 3);
-  images.rotation_end = 0.5 * std::max(0.0, meanDiagonal(step.covariance, 3, 3) - images.rotation_drift);
-  images.forward_drift = meanDiagonal(step.drift_covariance, 0, 1);
-  images.forward_end = 0.5 * std::max(0.0, meanDiagonal(step.covariance, 0, 1) - images.forward_drift);
-  return images;
+ReferenceStep toReferenceStep(const RelativePose& step) {
+  ReferenceStep reference;
+  reference.seconds = secondsBetween(step.from, step.to);
+  reference.rotation = logSo3(step.T_from_to.q());
+  reference.forward = step.T_from_to.t().x();
+  reference.rotation_drift = meanDiagonal(step.drift_covariance, 3, 3);
+  reference.rotation_end = 0.5 * std::max(0.0, meanDiagonal(step.covariance, 3, 3) - reference.rotation_drift);
+  reference.forward_drift = meanDiagonal(step.drift_covariance, 0, 1);
+  reference.forward_end = 0.5 * std::max(0.0, meanDiagonal(step.covariance, 0, 1) - reference.forward_drift);
+  return reference;
 }
 
 /// Returns whether a scale of the wheels (measured over true, minus 1) is too large for working ones.
@@ -72,29 +60,12 @@ Vector6d smoothTwist(const TwistStream& stream, StampNs stamp) {
   return sum / seconds;
 }
 
-/// Transforms the motion of base_link to that of the camera: (rho, phi) of boxPlus, in `from`.
-ProcessInput inCamera(const Reckoned& base, const Pose& T_base_camera) {
-  // With X = T_base_camera, T_camera = X^-1 T X: phi is rotated to the camera axes, and t changes by phi x (R t_X).
-  ProcessInput u;
-  u.T_from_to = T_base_camera.inverse() * base.T_from_to * T_base_camera;
-  const Matrix3d Rt = T_base_camera.R().transpose();
-  if (!base.has_translation) {
-    const Matrix3d rotation = Rt * base.covariance.bottomRightCorner<3, 3>() * Rt.transpose();
-    u.T_from_to = Pose(u.T_from_to.q(), Vector3d::Zero());
-    u.information.bottomRightCorner<3, 3>() = urban_nav_core::SmallCholesky<3>(rotation).inverse();
-    return u;
-  }
-  Matrix6d M = Matrix6d::Zero();
-  M.topLeftCorner<3, 3>() = M.bottomRightCorner<3, 3>() = Rt;
-  M.topRightCorner<3, 3>() = -Rt * urban_nav_core::skew(base.T_from_to.q() * T_base_camera.t());
-  u.information = urban_nav_core::SmallCholesky<6>(M * base.covariance * M.transpose()).inverse();
-  return u;
-}
-
 }  // namespace
 
-MotionSensors::MotionSensors(const Pose& T_base_camera)
-    : T_base_camera_(T_base_camera), gyroscope_(kTurnFloor), wheels_(kForwardFloor) {
+MotionSensors::MotionSensors() : MotionSensors(Options()) {}
+
+MotionSensors::MotionSensors(Options options)
+    : options_(std::move(options)), gyroscope_(kTurnFloor), wheels_(kForwardFloor) {
   notes_.reserve(64);
 }
 
@@ -117,7 +88,7 @@ StampNs MotionSensors::newestRate() const {
   return delayed(gyroscope_.stream.newest().to, -calibration_.states().mean[MotionStates::kImuOffset]);
 }
 
-Velocity MotionSensors::velocity(Velocity steady) const {
+BodyTwist MotionSensors::velocity(BodyTwist steady) const {
   const MotionStates& states = calibration_.states();
   const auto replace = [&](int row, double value, double variance) {
     steady.twist[row] = value;
@@ -125,18 +96,20 @@ Velocity MotionSensors::velocity(Velocity steady) const {
     steady.covariance.col(row).setZero();
     steady.covariance(row, row) = variance;
   };
-  if (gyroscope_.mayPredict()) {
+  if (mayPredict(gyroscope_)) {
     const TwistSpan& span = gyroscope_.stream.newest();
     const double white = calibration_.gyroscopeNoise() * rateDensity(gyroscope_.stream, span) / span.seconds();
     for (int i = 0; i < 3; ++i) replace(3 + i, span.twist[3 + i] - states.bias()[i], white);
     steady.covariance.bottomRightCorner<3, 3>() += states.covariance.topLeftCorner<3, 3>();
   }
-  if (wheels_.mayPredict()) {
+  if (mayPredict(wheels_)) {
     const TwistSpan& span = wheels_.stream.newest();
     constexpr int kScale = MotionStates::kSpeedScale;
     const double scale = 1.0 + states.mean[kScale], speed = span.twist[0] / scale;
-    replace(0, speed, (calibration_.wheelNoise() * span.density[0] / span.seconds() +
-                       speed * speed * states.covariance(kScale, kScale)) / (scale * scale));
+    replace(0, speed,
+            (calibration_.wheelNoise() * span.density[0] / span.seconds() +
+             speed * speed * states.covariance(kScale, kScale)) /
+                (scale * scale));
   }
   return steady;
 }
@@ -146,47 +119,48 @@ void MotionSensors::continueUnmeasured(StampNs to, double seconds) {
   for (Sensor* sensor : {&gyroscope_, &wheels_}) sensor->stream.forget(to - kHistory);
 }
 
-std::optional<Reckoned> MotionSensors::reckonBy(bool gyroscope, bool wheels, StampNs from, StampNs to,
-                                                const Pose& T_odom_base) const {
-  MotionEvidence evidence;
-  if (gyroscope && gyroscope_.mayPredict()) evidence.gyroscope = &gyroscope_.stream;
-  if (wheels && wheels_.mayPredict()) evidence.wheels = &wheels_.stream;
-  evidence.states = &calibration_.states();
+std::optional<Reckoned> MotionSensors::predict(StampNs from, StampNs to, const Quaterniond& q_odom_base,
+                                               std::optional<double> forward_unmeasured) const {
   GroundSlope ground = ground_;
   if (const auto up = up_.estimate()) ground = ground_.levelled(up->up, up->sigma);
+  MotionEvidence evidence;
+  evidence.states = &calibration_.states();
   evidence.ground = &ground;
   evidence.gyroscope_noise = calibration_.gyroscopeNoise();
   evidence.wheel_noise = calibration_.wheelNoise();
-  evidence.since_measured = since_measured_;
-  return reckon(evidence, from, to, T_odom_base.q());
+  evidence.turn_unmeasured = since_measured_;
+  evidence.forward_unmeasured = forward_unmeasured.value_or(since_measured_);
+  const TwistStream* const gyroscope = mayPredict(gyroscope_) ? &gyroscope_.stream : nullptr;
+  const TwistStream* const wheels = mayPredict(wheels_) ? &wheels_.stream : nullptr;
+  const std::array<std::pair<const TwistStream*, const TwistStream*>, 3> choices = {
+      {{gyroscope, wheels}, {gyroscope, nullptr}, {nullptr, wheels}}};
+  for (const auto& [turns, drives] : choices) {
+    evidence.gyroscope = turns;
+    evidence.wheels = drives;
+    std::optional<Reckoned> reckoned = reckon(evidence, from, to, q_odom_base);
+    if (!reckoned) continue;
+    const bool is_finite = reckoned->covariance.allFinite() && reckoned->T_from_to.isFinite();
+    return is_finite ? reckoned : std::nullopt;
+  }
+  return std::nullopt;
 }
 
-std::optional<ProcessInput> MotionSensors::predict(StampNs from, StampNs to, const Pose& T_odom_camera) const {
-  const Pose T_odom_base = T_odom_camera * T_base_camera_.inverse();
-  std::optional<Reckoned> reckoned = reckonBy(true, true, from, to, T_odom_base);
-  if (!reckoned) reckoned = reckonBy(true, false, from, to, T_odom_base);
-  if (!reckoned) reckoned = reckonBy(false, true, from, to, T_odom_base);
-  if (!reckoned || !reckoned->covariance.allFinite()) return std::nullopt;
-  const ProcessInput u = inCamera(*reckoned, T_base_camera_);
-  if (!u.T_from_to.isFinite() || !u.information.allFinite()) return std::nullopt;
-  return u;
-}
-
-void MotionSensors::addFrame(FrameId frame, double seconds, bool by_images, bool reckoned) {
-  since_measured_ = by_images ? 0.0 : since_measured_ + seconds;
+void MotionSensors::addFrame(std::int64_t frame, double seconds, bool by_reference, bool reckoned) {
+  since_measured_ = by_reference ? 0.0 : since_measured_ + seconds;
   if (gyroscope_.stream.isEmpty() && wheels_.stream.isEmpty()) return;
   notes_.push_back({frame, reckoned});
 }
 
-void MotionSensors::check(StampNs from, StampNs to, const Pose& T_from_to) {
-  const Pose base = T_base_camera_ * T_from_to * T_base_camera_.inverse();
+void MotionSensors::check(const MeasuredStep& newest) {
+  const StampNs from = newest.step.from, to = newest.step.to;
+  const Pose& base = newest.step.T_from_to;
   const MotionStates& states = calibration_.states();
   const auto contradicts = [](double error, double motion, double floor) {
     return error > kFarInOneStep * floor && error > kLargeShareOfStep * motion;
   };
-  if (!gyroscope_.stream.isEmpty()) {
+  if (newest.measures_turn && !gyroscope_.stream.isEmpty()) {
     const double offset = states.mean[MotionStates::kImuOffset];
-    urban_nav_core::RotationPreintegration turned(states.bias());
+    RotationPreintegration turned(states.bias());
     const Coverage coverage = gyroscope_.stream.cover(
         delayed(from, offset), delayed(to, offset),
         [&](const TwistSpan& span, double seconds) { turned.add(span.twist.tail<3>(), seconds, 0.0); });
@@ -195,7 +169,7 @@ void MotionSensors::check(StampNs from, StampNs to, const Pose& T_from_to) {
     if (coverage.isComplete())
       gyroscope_.is_contradicted = contradicts(by_gyroscope.angularDistance(base.q()), motion, kTurnFloor);
   }
-  if (!wheels_.stream.isEmpty()) {
+  if (newest.measures_forward && !wheels_.stream.isEmpty()) {
     const double offset = states.mean[MotionStates::kWheelOffset], scale = 1.0 + states.mean[MotionStates::kSpeedScale];
     double distance = 0.0;
     const Coverage coverage = wheels_.stream.cover(
@@ -207,43 +181,45 @@ void MotionSensors::check(StampNs from, StampNs to, const Pose& T_from_to) {
   }
 }
 
-void MotionSensors::learn(const Settled& settled) {
+void MotionSensors::learn(const MeasuredStep& settled) {
   estimates_.newest = {};
   const auto note =
       std::find_if(notes_.begin(), notes_.end(), [&](const FrameNote& each) { return each.frame == settled.frame; });
   const bool known = note != notes_.end(), reckoned = known && note->reckoned;
   if (known) notes_.erase(notes_.begin(), note + 1);
-  const Health health = settled.status.health;
-  const bool measured = any_settled_ && known && start_is_sound_ && health == Health::Ok && !reckoned;
+  const bool measured = any_settled_ && known && start_is_sound_ && settled.health == Health::Ok && !reckoned;
   any_settled_ = true;
-  start_is_sound_ = health == Health::Ok || health == Health::Recovered;
+  start_is_sound_ = settled.health == Health::Ok || settled.health == Health::Recovered;
   for (Sensor* sensor : {&gyroscope_, &wheels_}) {
     if (!measured) sensor->agreement.interrupt();
     sensor->stream.forget(settled.stamp - kHistory);
   }
   if (measured) learnStep(settled);
-  else if (known) calibration_.advance(secondsBetween(settled.from_previous.from, settled.from_previous.to));
+  else if (known) calibration_.advance(secondsBetween(settled.step.from, settled.step.to));
   follows_ = measured;
   if (known) write();
 }
 
-void MotionSensors::learnStep(const Settled& settled) {
-  const urban_nav_core::RelativePose& step = settled.from_previous;
-  const ImageStep images = toImageStep(step);
-  if (!(images.seconds > 0.0)) return;
-  calibration_.advance(images.seconds);
-  if (!gyroscope_.is_left_out) up_.addStep(step.from, step.to, step.T_from_to, settled.T_odom_base.pose.q(), follows_);
+void MotionSensors::learnStep(const MeasuredStep& settled) {
+  const RelativePose& step = settled.step;
+  const ReferenceStep reference = toReferenceStep(step);
+  if (!(reference.seconds > 0.0)) return;
+  calibration_.advance(reference.seconds);
+  if (!gyroscope_.is_left_out)
+    up_.addStep(step.from, step.to, step.T_from_to, settled.q_odom_base, follows_ && settled.measures_forward);
   std::optional<Compared> turned, moved;
-  const std::optional<GyroscopeStep> gyroscope = compareGyroscope(settled, images, turned);
-  const std::optional<WheelStep> wheels = compareWheels(settled, images, moved);
-  calibration_.update(images, follows_, gyroscope, wheels);
+  std::optional<GyroscopeStep> gyroscope;
+  std::optional<WheelStep> wheels;
+  if (settled.measures_turn) gyroscope = compareGyroscope(settled, reference, turned);
+  if (settled.measures_turn && settled.measures_forward) wheels = compareWheels(settled, reference, moved);
+  calibration_.update(reference, follows_, gyroscope, wheels);
   if (turned) {
-    estimates_.newest.turn = images.rotation;
+    estimates_.newest.turn = reference.rotation;
     estimates_.newest.turn_error = turned->error;
     estimates_.newest.turn_sigma = std::sqrt(turned->variance / 3.0);
   }
   if (moved) {
-    estimates_.newest.forward = images.forward;
+    estimates_.newest.forward = reference.forward;
     estimates_.newest.sideways = step.T_from_to.t().y();
     estimates_.newest.forward_error = moved->stated_error;
     estimates_.newest.forward_sigma = std::sqrt(moved->stated_variance);
@@ -255,18 +231,20 @@ void MotionSensors::learnStep(const Settled& settled) {
   if (!gyroscope_.stream.isEmpty()) decide(gyroscope_, false, settled.stamp);
   if (wheels_.stream.isEmpty()) return;
   decide(wheels_, true, settled.stamp);
-  const Vector3d moved_in_odom = settled.T_odom_base.pose.q() * (step.T_from_to.q().conjugate() * step.T_from_to.t());
+  if (!settled.measures_forward) return;
+  const Vector3d moved_in_odom = settled.q_odom_base * (step.T_from_to.q().conjugate() * step.T_from_to.t());
   ground_.learn(moved_in_odom, step.covariance.topLeftCorner<3, 3>().diagonal().maxCoeff());
 }
 
-std::optional<GyroscopeStep> MotionSensors::compareGyroscope(const Settled& settled, const ImageStep& images,
+std::optional<GyroscopeStep> MotionSensors::compareGyroscope(const MeasuredStep& settled,
+                                                             const ReferenceStep& reference,
                                                              std::optional<Compared>& compared) const {
   const TwistStream& stream = gyroscope_.stream;
   if (stream.isEmpty()) return std::nullopt;
-  const urban_nav_core::RelativePose& step = settled.from_previous;
+  const RelativePose& step = settled.step;
   const MotionStates& states = calibration_.states();
   const double offset = states.mean[MotionStates::kImuOffset];
-  urban_nav_core::RotationPreintegration corrected(states.bias()), stated;
+  RotationPreintegration corrected(states.bias()), stated;
   const StampNs from = delayed(step.from, offset), to = delayed(step.to, offset);
   const Coverage coverage = stream.cover(from, to, [&](const TwistSpan& span, double seconds) {
     corrected.add(span.twist.tail<3>(), seconds, rateDensity(stream, span));
@@ -274,7 +252,7 @@ std::optional<GyroscopeStep> MotionSensors::compareGyroscope(const Settled& sett
   if (!coverage.isComplete()) return std::nullopt;
   stream.cover(step.from, step.to,
                [&](const TwistSpan& span, double seconds) { stated.add(span.twist.tail<3>(), seconds, 0.0); });
-  const urban_nav_core::RotationResidual residual =
+  const RotationResidual residual =
       rotationResidual(corrected, Quaterniond::Identity(), step.T_from_to.q(), states.bias());
   GyroscopeStep result;
   result.error = residual.e;
@@ -285,19 +263,19 @@ std::optional<GyroscopeStep> MotionSensors::compareGyroscope(const Settled& sett
   Eigen::Matrix<double, 3, 4> J;
   J << result.bias, result.offset;
   Compared checked;
-  checked.step = {step.to, images.seconds, images.rotation, logSo3(stated.rotation())};
+  checked.step = {step.to, reference.seconds, reference.rotation, logSo3(stated.rotation())};
   checked.error = result.error;
-  checked.variance = 3.0 * (result.variance + images.rotation_drift + 2.0 * images.rotation_end) +
+  checked.variance = 3.0 * (result.variance + reference.rotation_drift + 2.0 * reference.rotation_end) +
                      (J * states.covariance.topLeftCorner<4, 4>() * J.transpose()).trace();
   compared = checked;
   return result;
 }
 
-std::optional<WheelStep> MotionSensors::compareWheels(const Settled& settled, const ImageStep& images,
+std::optional<WheelStep> MotionSensors::compareWheels(const MeasuredStep& settled, const ReferenceStep& reference,
                                                       std::optional<Compared>& compared) const {
   const TwistStream& stream = wheels_.stream;
   if (stream.isEmpty()) return std::nullopt;
-  const urban_nav_core::RelativePose& step = settled.from_previous;
+  const RelativePose& step = settled.step;
   const MotionStates& states = calibration_.states();
   const double offset = states.mean[MotionStates::kWheelOffset],
                speed_scale = 1.0 + states.mean[MotionStates::kSpeedScale],
@@ -306,22 +284,21 @@ std::optional<WheelStep> MotionSensors::compareWheels(const Settled& settled, co
   Pose corrected, stated;
   WheelStep result;
   const Coverage coverage = stream.cover(from, to, [&](const TwistSpan& span, double seconds) {
-    corrected = corrected * urban_nav_core::expSe3(span.twist * seconds);
+    corrected = corrected * expSe3(span.twist * seconds);
     result.forward.variance += span.density[0] * seconds;
     result.turn.variance += span.density[5] * seconds;
   });
   if (!coverage.isComplete()) return std::nullopt;
-  stream.cover(step.from, step.to, [&](const TwistSpan& span, double seconds) {
-    stated = stated * urban_nav_core::expSe3(span.twist * seconds);
-  });
+  stream.cover(step.from, step.to,
+               [&](const TwistSpan& span, double seconds) { stated = stated * expSe3(span.twist * seconds); });
   const Vector6d change = smoothTwist(stream, to) - smoothTwist(stream, from);
   const double forward = corrected.t().x() / speed_scale, turn = logSo3(corrected.q()).z() / turn_scale;
-  result.forward.error = images.forward - forward;
-  result.forward.scale = -images.forward / speed_scale;
+  result.forward.error = reference.forward - forward;
+  result.forward.scale = -reference.forward / speed_scale;
   result.forward.offset = change[0] / speed_scale;
   result.forward.variance /= speed_scale * speed_scale;
-  result.turn.error = images.rotation.z() - turn;
-  result.turn.scale = -images.rotation.z() / turn_scale;
+  result.turn.error = reference.rotation.z() - turn;
+  result.turn.scale = -reference.rotation.z() / turn_scale;
   result.turn.offset = change[5] / turn_scale;
   result.turn.variance /= turn_scale * turn_scale;
   const Eigen::Vector2d J(result.forward.scale, result.forward.offset);
@@ -331,12 +308,12 @@ std::optional<WheelStep> MotionSensors::compareWheels(const Settled& settled, co
       states.covariance(MotionStates::kSpeedScale, MotionStates::kWheelOffset),
       states.covariance(MotionStates::kWheelOffset, MotionStates::kWheelOffset);
   Compared checked;
-  checked.step = {step.to, images.seconds, {images.forward, 0.0, 0.0}, {stated.t().x(), 0.0, 0.0}};
+  checked.step = {step.to, reference.seconds, {reference.forward, 0.0, 0.0}, {stated.t().x(), 0.0, 0.0}};
   checked.error = {result.forward.error, 0.0, 0.0};
-  checked.variance = result.forward.variance + images.forward_drift + 2.0 * images.forward_end + J.dot(P * J);
-  checked.stated_error = images.forward - corrected.t().x();
-  checked.stated_variance = speed_scale * speed_scale * result.forward.variance + images.forward_drift +
-                            2.0 * images.forward_end + change[0] * change[0] * P(1, 1);
+  checked.variance = result.forward.variance + reference.forward_drift + 2.0 * reference.forward_end + J.dot(P * J);
+  checked.stated_error = reference.forward - corrected.t().x();
+  checked.stated_variance = speed_scale * speed_scale * result.forward.variance + reference.forward_drift +
+                            2.0 * reference.forward_end + change[0] * change[0] * P(1, 1);
   compared = checked;
   return result;
 }
@@ -381,6 +358,7 @@ void MotionSensors::leaveOut(Sensor& sensor, bool is_wheels, StampNs stamp) {
   if (goes_on && open->is_named) return;
   DiagnosisInput input;
   input.repeated_s = sensor.stream.repeatedSeconds();
+  input.reference = options_.reference;
   input.q_base_sensor = is_wheels ? Quaterniond::Identity() : q_base_imu_;
   if (!is_wheels && isBiasBeyondPrior()) input.bias = calibration_.states().bias();
   const MotionFault fault =
@@ -398,10 +376,10 @@ void MotionSensors::write() {
   const MotionStates& states = calibration_.states();
   const auto sigma = [&](int state) { return std::sqrt(states.covariance(state, state)); };
   estimates_.has_gyroscope = !gyroscope_.stream.isEmpty();
-  estimates_.uses_gyroscope = gyroscope_.is_used;
+  estimates_.uses_gyroscope = isInUse(gyroscope_) && !gyroscope_.stream.isEmpty();
   estimates_.gyroscope_left_out = gyroscope_.is_left_out;
   estimates_.has_wheels = !wheels_.stream.isEmpty();
-  estimates_.uses_wheels = wheels_.is_used;
+  estimates_.uses_wheels = isInUse(wheels_) && !wheels_.stream.isEmpty();
   estimates_.wheels_left_out = wheels_.is_left_out;
   const Matrix3d R = q_base_imu_.toRotationMatrix();
   estimates_.gyroscope_bias = R.transpose() * states.bias();
@@ -417,7 +395,7 @@ void MotionSensors::write() {
   estimates_.wheel_offset_sigma_s = sigma(MotionStates::kWheelOffset);
 }
 
-void MotionSensors::archive(urban_nav_core::Archive& archive) {
+void MotionSensors::archive(Archive& archive) {
   Pose imu(q_base_imu_, Vector3d::Zero());
   archive(imu);
   q_base_imu_ = imu.q();
@@ -425,4 +403,4 @@ void MotionSensors::archive(urban_nav_core::Archive& archive) {
   archive(since_measured_, any_settled_, follows_, start_is_sound_);
 }
 
-}  // namespace swf_vo
+}  // namespace urban_nav_core
