@@ -13,8 +13,8 @@ namespace urban_nav_ros {
 namespace {
 
 template <typename Value>
-sensor_msgs::Image depthMessage(const std::string& encoding, const std::vector<Value>& values, bool is_bigendian = false,
-                                std::size_t padding = 0) {
+sensor_msgs::Image depthMessage(const std::string& encoding, const std::vector<Value>& values,
+                                bool is_bigendian = false, std::size_t padding = 0) {
   sensor_msgs::Image message;
   message.encoding = encoding;
   message.width = static_cast<std::uint32_t>(values.size());
@@ -24,8 +24,7 @@ sensor_msgs::Image depthMessage(const std::string& encoding, const std::vector<V
   for (const Value& value : values) {
     std::uint8_t raw[sizeof value];
     std::memcpy(raw, &value, sizeof value);
-    for (std::size_t i = 0; i < sizeof value; ++i)
-      message.data.push_back(raw[is_bigendian ? sizeof value - 1 - i : i]);
+    for (std::size_t i = 0; i < sizeof value; ++i) message.data.push_back(raw[is_bigendian ? sizeof value - 1 - i : i]);
   }
   message.data.resize(message.step);
   return message;
