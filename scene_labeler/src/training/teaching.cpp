@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "scene_labeler/labelling/labeler.hpp"
 #include "scene_labeler/labelling/superpixels.hpp"
@@ -21,7 +22,8 @@ bool showsNewPlace(const LabelModel& model, const Scene& scene, const FeatureTab
   return isNewPlace(model.place_novelty.shareUnlike(model.bins, table, is_asked));
 }
 
-constexpr std::size_t kMostAnchors = 300;  // per scene
+constexpr std::size_t kMostAnchors = 300;    // per scene
+constexpr std::size_t kMostByHand = 20'000;  // per scene: what a model can store is less
 
 SceneClass findAnswer(const LabelModel& model, const float* row) {
   std::vector<float> logs(model.classes.size());
@@ -48,6 +50,37 @@ void addAnchors(const LabelModel& model, const Scene& scene, const FeatureTable&
     rows.patches.push_back(kNoPatch);
     rows.weights.push_back(kAnchorWeight);
   }
+}
+
+/// Returns the weight of a return of a superpixel with so many corrected returns.
+float weightInPatch(std::size_t members, bool is_new_place) {
+  const float weight = std::round((is_new_place ? kPatchWeight : kKnownPatchWeight) / static_cast<float>(members));
+  return std::clamp(weight, 2.0F, kCorrectionWeight);
+}
+
+/// Returns the labelled returns as a fold, evenly subsampled, with weights by superpixel.
+TrainingFold foldByHand(const FeatureTable& table, const SceneLabels& answer, const std::vector<SceneClass>& labels,
+                        const std::string& name) {
+  std::vector<std::size_t> labelled;
+  std::map<std::uint32_t, std::size_t> members;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] == SceneClass::None) continue;
+    labelled.push_back(i);
+    ++members[answer.patches[i]];
+  }
+  members[kNoPatch] = 1;
+  const std::size_t drawn = std::min(kMostByHand, labelled.size());
+  TrainingFold fold;
+  fold.name = name;
+  FoldRows& rows = fold.samples;
+  for (std::size_t n = 0; n < drawn; ++n) {
+    const std::size_t i = labelled[n * labelled.size() / drawn];
+    rows.values.insert(rows.values.end(), table.row(i), table.row(i) + table.columns());
+    rows.labels.push_back(labels[i]);
+    rows.patches.push_back(kNoPatch);
+    rows.weights.push_back(weightInPatch(members[answer.patches[i]], isNewPlace(answer.share_unlike)));
+  }
+  return fold;
 }
 
 }  // namespace
@@ -88,14 +121,22 @@ CorrectionCount addCorrections(const LabelModel& model, const FeatureTable& tabl
   const bool has_one_wall =
       std::find(model.classes.begin(), model.classes.end(), SceneClass::Wall) != model.classes.end();
   CorrectionCount count;
+  std::size_t answered = 0;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (has_one_wall) labels[i] = withOneWall(labels[i]);
     if (answer.labels[i] == SceneClass::None) labels[i] = SceneClass::None;
+    answered += answer.labels[i] != SceneClass::None ? 1U : 0U;
     count.labelled += labels[i] != SceneClass::None ? 1U : 0U;
-    if (labels[i] == answer.labels[i]) labels[i] = SceneClass::None;
-    count.corrected += labels[i] != SceneClass::None ? 1U : 0U;
+    count.corrected += labels[i] != SceneClass::None && labels[i] != answer.labels[i] ? 1U : 0U;
+  }
+  count.are_by_hand = 2 * count.labelled < answered;
+  if (count.labelled > 0 && count.are_by_hand) {
+    folds.push_back(foldByHand(table, answer, labels, fold));
+    return count;
   }
   if (count.corrected == 0) return count;
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    if (labels[i] == answer.labels[i]) labels[i] = SceneClass::None;
   SamplingLimits limits;
   limits.held_out = 0;  // wrong answers only are not representative for calibration
   std::vector<TrainingFold> made;
@@ -128,8 +169,7 @@ std::size_t addPatchCorrections(const LabelModel& model, const Scene& scene,
       rows.patches.push_back(kNoPatch);
     }
     const std::size_t members = rows.labels.size() - before;
-    const float weight = std::round((is_new_place ? kPatchWeight : kKnownPatchWeight) / static_cast<float>(members));
-    rows.weights.resize(rows.labels.size(), std::clamp(weight, 2.0F, kCorrectionWeight));
+    rows.weights.resize(rows.labels.size(), weightInPatch(members, is_new_place));
     added += members;
   }
   if (model.kind == ClassifierKind::Boosted && !is_new_place) addAnchors(model, scene, table, first, rows);

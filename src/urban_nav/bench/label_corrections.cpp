@@ -6,6 +6,7 @@
 //
 // CLASSES: as of `labels --classes`; CORRECTIONS: 20 unless given; RADIUS: m around the suggested point, 0 unless
 // given.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -87,7 +88,10 @@ int run(int argc, char** argv) {
     if (suggested.empty()) break;
     const std::uint32_t point = suggested.front().point;
     const std::vector<std::uint32_t> members = units.members(units.unit(point));
-    const SceneClass label = commonClass(members, truth);
+    SceneClass label = commonClass(members, truth);
+    const std::vector<SceneClass>& known = teacher.base().classes;
+    if (label == SceneClass::Wall && std::find(known.begin(), known.end(), SceneClass::Wall) == known.end())
+      label = suggested.front().label == SceneClass::SmoothWall ? SceneClass::SmoothWall : SceneClass::TexturedWall;
     if (label == SceneClass::None) {  // without a truth the user passes over it
       for (const std::uint32_t member : members) skipped[member] = SceneClass::Other;
       continue;

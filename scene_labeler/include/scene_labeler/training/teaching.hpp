@@ -23,11 +23,17 @@ std::vector<TrainingFold> restoreFolds(const LabelModel& model);
 /// Numbers of returns compared with a model, and of those that differ from its answer.
 struct CorrectionCount {
   std::size_t labelled = 0, corrected = 0;
+  bool are_by_hand = false;  ///< less than half of the returns with an answer have a label: all labels are used
+
+  /// Returns whether there is nothing to learn.
+  bool empty() const { return are_by_hand ? labelled == 0 : corrected == 0; }
 };
 
 /// Adds the returns of a scene whose label differs from the answer of the model as a new fold, with kCorrectionWeight;
-/// labels equal to the answer are not used. `labels`: one per return, None is not a label; kinds of wall are one class
-/// for a model that does not distinguish them. Requires a fold name that is not in `folds`.
+/// labels equal to the answer are not used. If less than half of the returns have a label, they were labelled by hand:
+/// all of them are used then, with weights that make all superpixels count about equally. `labels`: one per return,
+/// None is not a label; kinds of wall are one class for a model that does not distinguish them. Requires a fold name
+/// that is not in `folds`.
 CorrectionCount addCorrections(const LabelModel& model, const Scene& scene, std::vector<SceneClass> labels,
                                int superpixel_size, const std::string& fold, std::vector<TrainingFold>& folds);
 

@@ -92,7 +92,7 @@ LabelModel teachByCorrections(const LabelModel& base, const std::string& name, c
   std::vector<TrainingFold> folds = scene_labeler::restoreFolds(base);
   const auto count = scene_labeler::addCorrections(base, corrections.input.scene, corrections.labels,
                                                    options.superpixel, correctionsFold(corrections.name, folds), folds);
-  if (count.corrected == 0) throw nothingCorrected(corrections.files.points);
+  if (count.empty()) throw nothingCorrected(corrections.files.points);
   return trainWithCorrections(base, std::move(folds), options);
 }
 
@@ -147,7 +147,7 @@ void LabelTeaching::addCorrections(const scene_labeler::ClassMap& map, const Dri
   const SceneCorrections corrections = readSceneCorrections(corrections_, map, console);
   const auto count = scene_labeler::addCorrections(*base_, corrections.input.scene, corrections.labels, superpixel,
                                                    correctionsFold(corrections.name, folds), folds);
-  if (count.corrected == 0) throw nothingCorrected(corrections_);
+  if (count.empty()) throw nothingCorrected(corrections_);
   console.info(corrections_ + ": " + std::to_string(count.corrected) + " of " + std::to_string(count.labelled) +
                " labelled points differ from the prediction of the model");
 }

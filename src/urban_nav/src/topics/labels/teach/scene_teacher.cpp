@@ -23,7 +23,7 @@ LabelModel SceneTeacher::teach(const std::vector<SceneClass>& labels) const {
   std::vector<scene_labeler::TrainingFold> folds = scene_labeler::restoreFolds(base_);
   const auto count =
       scene_labeler::addCorrections(base_, features_, answer_, labels, correctionsFold(options_.name, folds), folds);
-  if (count.corrected == 0) return base_;
+  if (count.empty()) return base_;
   return trainWithCorrections(base_, std::move(folds), options_.training);
 }
 
