@@ -41,7 +41,8 @@ class LidarLabelsLaunch(LaunchCase):
         clouds, odometry = [], []
         subscribers = [rospy.Subscriber("/labels/cloud", PointCloud2, clouds.append, queue_size=1000),
                        rospy.Subscriber("/lo/odometry", Odometry, odometry.append, queue_size=1000)]
-        self.launch("bag.launch", bag=self.bag, odometry="laser", rviz="false", loops="false", graph="false", laser_map="false", paused="true", rate=0.5)
+        self.launch("bag.launch", bag=self.bag, odometry="laser", rviz="false", loops="false", graph="false", laser_map="false", recognise_places="false",
+                    paused="true", rate=0.5)
         self.expect(lambda: {"/player/pause_playback", "/scene_labeler/reset"} <= services(), "the nodes")
         self.expect(lambda: {"/points", "/lo/odometry"} <= connections("/scene_labeler"), lambda: f"only {connections('/scene_labeler')}")
         subprocess.run(["rosservice", "call", "/player/pause_playback", "false"], check=True, stdout=subprocess.DEVNULL)
