@@ -30,7 +30,7 @@ urban_nav_core::MotionSensors makeSensors() {
   return urban_nav_core::MotionSensors(options);
 }
 
-/// What a pose measures.
+/// Parts of the motion that a pose measures.
 struct Measured {
   bool turn = true, forward = true;
 };

@@ -335,7 +335,7 @@ void Pipeline::accept(const Aligned& aligned, const SweepPoints& points, const P
     result.free_directions.push_back(turned.normalized());
   }
   StepEvidence evidence{result.step.covariance, {}};
-  evidence.free = unmeasuredOf(freeTwists(registration.free, R_base_odom), prediction);
+  evidence.free = withoutMeasured(freeTwists(registration.free, R_base_odom), prediction);
   motion_.update(step.T_b_c, prediction.seconds, evidence);
   lost_ = 0;
   grow(aligned, points);
@@ -367,7 +367,7 @@ void Pipeline::continueByPrediction(const Prediction& prediction, LaserPose& res
   T_odom_base_ = T_odom_base_ * prediction.T_last_now;
   if (started_)
     motion_.update(prediction.T_last_now, prediction.seconds,
-                   {prediction.covariance, unmeasuredOf(all.directions, prediction)});
+                   {prediction.covariance, withoutMeasured(all.directions, prediction)});
   if (started_) result.free_directions = all.directions;
 }
 

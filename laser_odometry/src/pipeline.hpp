@@ -66,7 +66,7 @@ class Pipeline {
                 const std::optional<StartMotion>& start = std::nullopt);
   Aligned alignWithPrior(const SweepPoints& points, const urban_nav_core::Sweep& sweep, Prediction& prediction);
   /// Returns the twists of `free` that no other sensor measured.
-  static std::vector<Vector6d> unmeasuredOf(const std::vector<Vector6d>& free, const Prediction& prediction);
+  static std::vector<Vector6d> withoutMeasured(const std::vector<Vector6d>& free, const Prediction& prediction);
   void comparePrior(const std::optional<MotionPrior>& prior, const Prediction& prediction, LaserPose& result);
   Aligned alignSecond(const SweepPoints& points, const Prediction& prediction);
   void accept(const Aligned& aligned, const SweepPoints& points, const Prediction& prediction,

@@ -32,7 +32,7 @@ std::optional<MotionPrior> Pipeline::complete(const std::optional<MotionPrior>& 
   return whole;
 }
 
-std::vector<Vector6d> Pipeline::unmeasuredOf(const std::vector<Vector6d>& free, const Prediction& prediction) {
+std::vector<Vector6d> Pipeline::withoutMeasured(const std::vector<Vector6d>& free, const Prediction& prediction) {
   if (prediction.is_measured) return {};
   if (!prediction.is_turn_measured) return free;
   std::vector<Vector6d> translations;

@@ -56,7 +56,7 @@ PriorAgreement::Block PriorAgreement::measure(const ComparedStep& step, const st
 namespace {
 
 template <typename Block>
-std::pair<Part, Part> partsOf(const Block& block) {
+std::pair<Part, Part> splitBlock(const Block& block) {
   const Vector6d error = block.by_sweeps - block.by_prior;
   const auto larger = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return std::max(a.norm(), b.norm()); };
   return {
@@ -69,7 +69,7 @@ std::pair<Part, Part> partsOf(const Block& block) {
 }  // namespace
 
 bool PriorAgreement::isFarFrom(const ComparedStep& step, const std::vector<Vector6d>& free) const {
-  const auto [position, turn] = partsOf(measure(step, free));
+  const auto [position, turn] = splitBlock(measure(step, free));
   return position.isFar() || turn.isFar();
 }
 
@@ -98,7 +98,7 @@ void PriorAgreement::interrupt(const std::vector<Vector6d>& free) {
 }
 
 void PriorAgreement::closeBlock() {
-  const auto [position, turn] = partsOf(block_);
+  const auto [position, turn] = splitBlock(block_);
   const bool contradicts = position.contradicts() || turn.contradicts();
   const bool confirms = !contradicts && (position.hasMotion() || turn.hasMotion());
   if (contradicts || confirms) {

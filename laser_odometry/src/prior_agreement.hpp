@@ -21,7 +21,7 @@ struct ComparedStep {
 /// at rest are neutral.
 class PriorAgreement {
  public:
-  /// Names the sensors of the next prior: priors of other sensors are judged anew.
+  /// Names the sensors of the next prior: priors of other sensors are assessed anew.
   void follow(const std::string& source);
   /// Returns whether one step contradicts by half of the motion, as by a frozen sensor or one in other units. `free`:
   /// twists in base_link that the end of the step leaves free.

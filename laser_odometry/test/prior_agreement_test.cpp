@@ -12,7 +12,7 @@ namespace {
 constexpr double kWheelNoise = 0.02;  // of the distance of a step
 
 /// A prior from the true motion: distances times a scale, turns times a factor, and noise with the stated covariance.
-PriorOf priorOf(const FreePlace& place, std::uint64_t seed, double scale, double turn_factor) {
+MakePrior makePrior(const FreePlace& place, std::uint64_t seed, double scale, double turn_factor) {
   const auto motion = makeMotion(place, seed);
   return [=](double from, double to) {
     urban_nav_core::testing::Dice dice(static_cast<std::uint64_t>(std::llround(1e3 * to)) + 77 * seed);
@@ -30,7 +30,7 @@ PriorOf priorOf(const FreePlace& place, std::uint64_t seed, double scale, double
   };
 }
 
-int countOf(const FreeRun& run, const std::string& words) {
+int countSentences(const FreeRun& run, const std::string& words) {
   int count = 0;
   for (const LaserPose& pose : run.poses) count += pose.status.sentence.find(words) != std::string::npos ? 1 : 0;
   return count;
@@ -44,9 +44,9 @@ const FreePlace& corridor() {
 TEST(MotionPriors, TheErrorAlongACorridorIsThatOfTheWheels) {
   for (const std::uint64_t seed : {1, 2}) {
     const FreeRun without = driveFreePlace(corridor(), {}, seed);
-    const FreeRun with = driveFreePlace(corridor(), {}, seed, priorOf(corridor(), seed, 1.0, 1.0));
+    const FreeRun with = driveFreePlace(corridor(), {}, seed, makePrior(corridor(), seed, 1.0, 1.0));
     const std::size_t last = with.poses.size() - 1;
-    EXPECT_EQ(countOf(with, "left out"), 0);
+    EXPECT_EQ(countSentences(with, "left out"), 0);
     EXPECT_GT(with.free(), 100);
     EXPECT_LT(with.error(last), 0.1);  // 200 free steps of 0.1 m with 2 % and 0.1 mm: 29 mm
     EXPECT_LT(20.0 * with.error(last), without.error(last));
@@ -59,24 +59,24 @@ TEST(MotionPriors, TheErrorAlongACorridorIsThatOfTheWheels) {
 }
 
 TEST(MotionPriors, WheelsOfAnotherScaleAreLeftOutAndNamed) {
-  const FreeRun run = driveFreePlace(corridor(), {}, 1, priorOf(corridor(), 1, 1.3, 1.0));
+  const FreeRun run = driveFreePlace(corridor(), {}, 1, makePrior(corridor(), 1, 1.3, 1.0));
   const FreeRun without = driveFreePlace(corridor(), {}, 1);
-  EXPECT_GT(countOf(run, "the prior of the motion is left out: it contradicts the sweeps, it moves"), 200);
+  EXPECT_GT(countSentences(run, "the prior of the motion is left out: it contradicts the sweeps, it moves"), 200);
   const std::size_t last = run.poses.size() - 1;
   EXPECT_LT(run.error(last), 1.5 * without.error(last) + 0.5);
   EXPECT_LT(run.error(last), 3.0 * run.stated());
 }
 
 TEST(MotionPriors, AGyroscopeInDegreesIsLeftOutAndNamed) {
-  const FreeRun run = driveFreePlace(corridor(), {}, 1, priorOf(corridor(), 1, 1.0, 180.0 / M_PI));
-  EXPECT_GT(countOf(run, "it turns"), 200);
+  const FreeRun run = driveFreePlace(corridor(), {}, 1, makePrior(corridor(), 1, 1.0, 180.0 / M_PI));
+  EXPECT_GT(countSentences(run, "it turns"), 200);
   const Pose last = run.truth.front().inverse() * run.truth.back();
   EXPECT_LT(urban_nav_core::angleBetween(last, run.poses.back().T_odom_base), 0.02);
 }
 
 TEST(MotionPriors, FrozenWheelsAreLeftOutAndNamed) {
-  const FreeRun run = driveFreePlace(corridor(), {}, 2, priorOf(corridor(), 2, 0.0, 1.0));
-  EXPECT_GT(countOf(run, "it moves 0.0"), 200);
+  const FreeRun run = driveFreePlace(corridor(), {}, 2, makePrior(corridor(), 2, 0.0, 1.0));
+  EXPECT_GT(countSentences(run, "it moves 0.0"), 200);
   EXPECT_LT(run.error(run.poses.size() - 1), 3.0 * run.stated());
 }
 

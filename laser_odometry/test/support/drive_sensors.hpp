@@ -51,28 +51,28 @@ class DriveSensors {
   }
   urban_nav_core::MotionInput rate(int from_ms) {
     const double seconds = 1e-3 * kPeriodMs, from = 1e-3 * from_ms;
-    urban_nav_core::MotionInput made = input(urban_nav_core::MotionSource::Gyroscope, from_ms, from_ms + kPeriodMs);
+    urban_nav_core::MotionInput result = input(urban_nav_core::MotionSource::Gyroscope, from_ms, from_ms + kPeriodMs);
     const Eigen::Vector3d turn = urban_nav_core::logSo3((motion_(from).inverse() * motion_(from + seconds)).q());
     const Eigen::Vector3d noise(dice_.normal(), dice_.normal(), dice_.normal());
-    made.T_from_to = urban_nav_core::Pose(
+    result.T_from_to = urban_nav_core::Pose(
         urban_nav_core::expSo3(errors_.rate_factor * turn + seconds * (errors_.bias + kRateSigma * noise)),
         Eigen::Vector3d::Zero());
     const double sigma = kRateSigma * seconds;
-    made.information.diagonal().tail<3>().setConstant(1.0 / (sigma * sigma));
-    return made;
+    result.information.diagonal().tail<3>().setConstant(1.0 / (sigma * sigma));
+    return result;
   }
   urban_nav_core::MotionInput roll(int from_ms) {
     const double from = 1e-3 * from_ms, to = from + 4e-3 * kPeriodMs;
-    urban_nav_core::MotionInput made = input(urban_nav_core::MotionSource::Wheels, from_ms, from_ms + 4 * kPeriodMs);
+    urban_nav_core::MotionInput result = input(urban_nav_core::MotionSource::Wheels, from_ms, from_ms + 4 * kPeriodMs);
     urban_nav_core::Vector6d motion = urban_nav_core::logSe3(motion_(from).inverse() * motion_(to));
     const double sigma = errors_.wheel_noise * std::abs(motion[0]) + 1e-4, turn_sigma = 1e-3;
     motion[0] = errors_.speed_scale * motion[0] + sigma * dice_.normal();
     motion[5] += turn_sigma * dice_.normal();
     for (const int row : {1, 2, 3, 4}) motion[row] = 0.0;
-    made.T_from_to = urban_nav_core::expSe3(motion);
+    result.T_from_to = urban_nav_core::expSe3(motion);
     const double along = 1.0 / (sigma * sigma);
-    made.information.diagonal() << along, along, 0.0, 0.0, 0.0, 1.0 / (turn_sigma * turn_sigma);
-    return made;
+    result.information.diagonal() << along, along, 0.0, 0.0, 0.0, 1.0 / (turn_sigma * turn_sigma);
+    return result;
   }
 
   std::function<urban_nav_core::Pose(double)> motion_;

@@ -13,7 +13,7 @@ namespace {
 
 using Queue = SweepMotionQueue<int>;
 
-constexpr StampNs kMs = 1'000'000;
+constexpr StampNs kQueueMs = 1'000'000;
 constexpr int kSweeps = 60;
 
 /// A message with its stamp and the time at which it arrives: a sweep of 100 ms with its number, or a motion input.
@@ -36,14 +36,15 @@ std::vector<Message> makeMessages(double delay_ms, std::uint64_t seed) {
   testing::Dice dice(seed);
   std::vector<Message> messages;
   const auto add = [&](MotionSource source, StampNs period) {
-    const StampNs delay = static_cast<StampNs>(dice.uniform(0.0, delay_ms) * kMs);
-    for (StampNs t = period; t < kSweeps * 100 * kMs; t += period)
+    const StampNs delay = static_cast<StampNs>(dice.uniform(0.0, delay_ms) * kQueueMs);
+    for (StampNs t = period; t < kSweeps * 100 * kQueueMs; t += period)
       messages.push_back({t, t + delay, -1, makeInput(source, t - period, t)});
   };
-  add(MotionSource::Gyroscope, 10 * kMs);
-  add(MotionSource::Wheels, 40 * kMs);
+  add(MotionSource::Gyroscope, 10 * kQueueMs);
+  add(MotionSource::Wheels, 40 * kQueueMs);
   for (int i = 0; i < kSweeps; ++i)
-    messages.push_back({(100 * i + 95) * kMs, (100 * i + 95) * kMs + static_cast<StampNs>(2 * kMs), i, {}});
+    messages.push_back(
+        {(100 * i + 95) * kQueueMs, (100 * i + 95) * kQueueMs + static_cast<StampNs>(2 * kQueueMs), i, {}});
   std::stable_sort(messages.begin(), messages.end(),
                    [](const Message& a, const Message& b) { return a.arrival < b.arrival; });
   return messages;
@@ -51,7 +52,7 @@ std::vector<Message> makeMessages(double delay_ms, std::uint64_t seed) {
 
 Queue::Options makeOptions(DeliveryOrder delivery) {
   Queue::Options options;
-  options.max_lateness = 100 * kMs;
+  options.max_lateness = 100 * kQueueMs;
   options.delivery = delivery;
   options.motion.gyroscope = options.motion.wheels = true;
   return options;
@@ -94,10 +95,10 @@ TEST(SweepMotionQueue, EachSweepHasTheInputsUpToItsEnd) {
   for (int i = 0; i < kSweeps; ++i) {
     const Queue::Ready& sweep = ready[static_cast<std::size_t>(i)];
     EXPECT_EQ(sweep.sweep, i);
-    const StampNs end = (100 * i + 95) * kMs;
+    const StampNs end = (100 * i + 95) * kQueueMs;
     for (const MotionInput& input : sweep.inputs) {
       EXPECT_LE(input.to, end);
-      EXPECT_GT(input.to, end - 100 * kMs);
+      EXPECT_GT(input.to, end - 100 * kQueueMs);
     }
     EXPECT_GE(sweep.inputs.size(), 9U + 2U);
   }
@@ -115,7 +116,7 @@ TEST(SweepMotionQueue, AbsentSensorsDelaySweepsByOneAtMost) {
   Queue queue(makeOptions(DeliveryOrder::OrderedStreams));
   std::vector<Queue::Ready> ready;
   for (int i = 0; i < kSweeps; ++i) {
-    queue.add(100 * i * kMs, i);
+    queue.add(100 * i * kQueueMs, i);
     drain(queue, ready);
     EXPECT_GE(ready.size() + 1, static_cast<std::size_t>(i) + 1);
   }
@@ -124,7 +125,7 @@ TEST(SweepMotionQueue, AbsentSensorsDelaySweepsByOneAtMost) {
 
 TEST(SweepMotionQueue, WithoutSensorsSweepsPassThrough) {
   Queue queue({});
-  queue.add(makeInput(MotionSource::Wheels, 0, kMs));
+  queue.add(makeInput(MotionSource::Wheels, 0, kQueueMs));
   for (int i = 0; i < 3; ++i) {
     queue.add(1000 - 400 * i, i);  // also with stamps that go back
     const auto ready = queue.take();
