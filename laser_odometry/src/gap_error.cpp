@@ -24,6 +24,17 @@ bool isMeasuredByOldMap(const std::vector<PatchMatch>& matches, const Vector6d& 
 
 }  // namespace
 
+std::vector<Vector6d> freeTwists(const FreeSubspace& free, const Matrix3d& R_base_odom) {
+  std::vector<Vector6d> twists;
+  for (const Vector6d& direction : free.directions) {
+    const Vector6d d = free.unscaled(direction);
+    Vector6d turned;
+    turned << R_base_odom * d.head<3>(), R_base_odom * d.tail<3>();
+    twists.push_back(turned);
+  }
+  return twists;
+}
+
 void GapError::extend(const Matrix6d& along_free, std::int32_t directions, std::int32_t sweep) {
   if (directions == 0) return;
   if (directions_ == 0) begin_ = sweep - 1;

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "registration.hpp"
 #include "urban_nav_core/io/archive.hpp"
 
 namespace laser_odometry {
+
+/// Returns the free directions as twists in base_link.
+std::vector<Vector6d> freeTwists(const FreeSubspace& free, const Matrix3d& R_base_odom);
 
 /// Error of the pose along directions that nothing has measured since a sweep. Where such a direction is measured
 /// again, surfaces of the map from before the gap take the error back: the step contains it with the opposite sign.

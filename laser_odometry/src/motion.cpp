@@ -43,8 +43,8 @@ Matrix6d isotropic(double translation, double rotation) {
   return variances.asDiagonal();
 }
 
-/// Returns the projector onto the span of directions (Gram-Schmidt). Rotations: 1 rad as 1 m. A direction within
-/// kSameDirection of the span of those before it is part of that span.
+}  // namespace
+
 Matrix6d projectorOnto(const std::vector<Vector6d>& directions) {
   Matrix6d P = Matrix6d::Zero();
   for (const Vector6d& direction : directions) {
@@ -57,8 +57,6 @@ Matrix6d projectorOnto(const std::vector<Vector6d>& directions) {
   }
   return P;
 }
-
-}  // namespace
 
 Pose MotionModel::predict(double seconds) const { return urban_nav_core::expSe3(twist_ * seconds); }
 

@@ -13,6 +13,10 @@ using urban_nav_core::Matrix6d;
 using urban_nav_core::Pose;
 using urban_nav_core::Vector6d;
 
+/// Returns the projector onto the span of twists, which may depend on each other. Rotations: 1 rad as 1 m. Directions
+/// within 0.05 rad of each other are the same.
+Matrix6d projectorOnto(const std::vector<Vector6d>& directions);
+
 /// Accuracy of a measured step of base_link.
 struct StepEvidence {
   Matrix6d covariance = Matrix6d::Zero();  ///< tangent as in PoseWithCovariance

@@ -39,18 +39,6 @@ Matrix6d inOdom(const Matrix6d& covariance, const Pose& T_odom_base) {
   return to_odom * covariance * to_odom.transpose();
 }
 
-/// Returns the free directions as twists in base_link.
-std::vector<Vector6d> freeTwists(const FreeSubspace& free, const Matrix3d& R_base_odom) {
-  std::vector<Vector6d> twists;
-  for (const Vector6d& direction : free.directions) {
-    const Vector6d d = free.unscaled(direction);
-    Vector6d turned;
-    turned << R_base_odom * d.head<3>(), R_base_odom * d.tail<3>();
-    twists.push_back(turned);
-  }
-  return twists;
-}
-
 }  // namespace
 
 Pipeline::Pipeline(const Parameters& parameters, const Pose& T_base_lidar, Scanner scanner)
@@ -79,7 +67,10 @@ LaserPose Pipeline::process(const Sweep& sweep, const std::optional<MotionPrior>
   const Pose T_odom_last = T_odom_base_;
   LaserPose result;
   result.stamp = sweep.reference;
-  const Prediction prediction = predict(sweep, prior);
+  const std::optional<MotionPrior> whole =
+      started_ ? complete(prior, urban_nav_core::secondsBetween(stamp_, sweep.reference)) : std::nullopt;
+  if (whole) agreement_.follow(whole->step.source);
+  Prediction prediction = predict(sweep, agreement_.isLeftOut() ? std::nullopt : whole);
   const SweepPoints points = collect(sweep);
   result.statistics.points = points.valid;
   result.statistics.near = points.near;
@@ -93,19 +84,22 @@ LaserPose Pipeline::process(const Sweep& sweep, const std::optional<MotionPrior>
     result.status =
         started_ ? statusOfRestart(points, parameters_, space_) : statusOfStart(points, parameters_, space_);
   } else {
-    const Aligned aligned = first_.used == 0 ? align(points, prediction, T_odom_base_ * prediction.T_last_now)
-                                             : alignSecond(points, prediction);
+    const Aligned aligned =
+        first_.used == 0 ? alignWithPrior(points, sweep, prediction) : alignSecond(points, prediction);
     assess(aligned, points, sweep, prediction, result);
     if (result.status.health == Health::Lost) {
       if (first_.used > 0) map_.clear();  // map of a sweep with unknown velocity
       first_ = SweepPoints();
       continueByPrediction(prediction, result);
-      restartIfLost(points, result);
+      restartIfLost(points, prediction, result);
     } else {
       accept(aligned, points, prediction, sweep, result);
     }
   }
-  if (started_) accumulate(T_odom_last, result.step);
+  if (started_) {
+    comparePrior(whole, prediction, result);
+    accumulate(T_odom_last, result.step);
+  }
   result.T_odom_base = T_odom_base_;
   result.covariance = covariance_;
   if (space_ == MotionSpace::Planar && result.status.health != Health::Lost)
@@ -150,10 +144,13 @@ Pipeline::Prediction Pipeline::predict(const Sweep& sweep, const std::optional<M
   Prediction prediction;
   if (!started_) return prediction;
   prediction.seconds = urban_nav_core::secondsBetween(stamp_, sweep.reference);
-  if (prior && prior->step.T_from_to.isFinite() && prior->step.covariance.allFinite()) {
+  if (prior) {
     prediction.T_last_now = prior->step.T_from_to;
-    prediction.covariance = prediction.of_step = prior->step.covariance;
-    prediction.is_measured = true;
+    prediction.covariance = prior->step.covariance;
+    prediction.of_step = prior->alone.value_or(prior->step.covariance);
+    prediction.is_measured = prior->has_translation;
+    prediction.is_turn_measured = true;
+    prediction.within = prior->within;
   } else {
     prediction.T_last_now = motion_.predict(prediction.seconds);
     prediction.covariance = motion_.predictionCovariance(prediction.seconds);
@@ -208,8 +205,12 @@ Pipeline::Aligned Pipeline::align(const SweepPoints& points, const Prediction& p
   for (int round = 0; round < rounds; ++round) {
     if (is_timed) {
       const Pose T_last_now = T_odom_base_.inverse() * aligned.registration.T_odom_base;
-      const SweepMotion expected =
+      SweepMotion expected =
           start ? start->first : SweepMotion{motion_.sweepTwist(T_last_now, prediction.seconds), Vector6d::Zero()};
+      if (prediction.within && !start && round == 0) {  // later, the estimated step is more accurate
+        expected.twist.tail<3>() = prediction.within->tail<3>();
+        if (prediction.is_measured) expected.twist.head<3>() = prediction.within->head<3>();
+      }
       if (round > 0) aligned.motion = aligned.motion + aligned.registration.motion_change;
       else aligned.motion = start ? start->second : expected;
       options.motion_offset = aligned.motion - expected;
@@ -334,7 +335,7 @@ void Pipeline::accept(const Aligned& aligned, const SweepPoints& points, const P
     result.free_directions.push_back(turned.normalized());
   }
   StepEvidence evidence{result.step.covariance, {}};
-  if (!prediction.is_measured) evidence.free = freeTwists(registration.free, R_base_odom);
+  evidence.free = withoutMeasured(freeTwists(registration.free, R_base_odom), prediction);
   motion_.update(step.T_b_c, prediction.seconds, evidence);
   lost_ = 0;
   grow(aligned, points);
@@ -366,13 +367,13 @@ void Pipeline::continueByPrediction(const Prediction& prediction, LaserPose& res
   T_odom_base_ = T_odom_base_ * prediction.T_last_now;
   if (started_)
     motion_.update(prediction.T_last_now, prediction.seconds,
-                   {prediction.covariance, prediction.is_measured ? std::vector<Vector6d>() : all.directions});
+                   {prediction.covariance, withoutMeasured(all.directions, prediction)});
   if (started_) result.free_directions = all.directions;
 }
 
-void Pipeline::restartIfLost(const SweepPoints& points, LaserPose& result) {
+void Pipeline::restartIfLost(const SweepPoints& points, const Prediction& prediction, LaserPose& result) {
   if (++lost_ < kLostLimit || points.used == 0) return;
-  motion_ = MotionModel(parameters_);
+  if (!prediction.is_measured) motion_ = MotionModel(parameters_);
   beginMap(points, knownMotion());
   result.status.sentence += "; local map restarted";
 }

@@ -11,6 +11,7 @@
 #include "laser_odometry/laser_odometry.hpp"
 #include "motion.hpp"
 #include "planar_floor.hpp"
+#include "prior_agreement.hpp"
 #include "registration.hpp"
 #include "surface_map.hpp"
 #include "sweep_points.hpp"
@@ -37,7 +38,9 @@ class Pipeline {
     Pose T_last_now;
     Matrix6d covariance = Matrix6d::Identity();
     Matrix6d of_step = Matrix6d::Identity();  ///< part that does not depend on other predictions of a gap
-    bool is_measured = false;  ///< by another sensor
+    bool is_measured = false;                 ///< by another sensor
+    bool is_turn_measured = false;            ///< the rotation, by another sensor
+    std::optional<Vector6d> within;           ///< twist within the sweep, by another sensor
   };
   /// A registered sweep with the deskewed segments of its last round, in base_link.
   struct Aligned {
@@ -48,6 +51,7 @@ class Pipeline {
   };
 
   Prediction predict(const urban_nav_core::Sweep& sweep, const std::optional<MotionPrior>& prior) const;
+  std::optional<MotionPrior> complete(const std::optional<MotionPrior>& prior, double seconds) const;
   SweepMotion knownMotion() const;
   SweepPoints collect(const urban_nav_core::Sweep& sweep) const;
   void beginMap(const SweepPoints& points, const SweepMotion& motion);
@@ -60,13 +64,17 @@ class Pipeline {
   static StartMotion startMotion(const Pose& T_first_second, double seconds, const SweepMotion& change);
   Aligned align(const SweepPoints& points, const Prediction& prediction, const Pose& guess,
                 const std::optional<StartMotion>& start = std::nullopt);
+  Aligned alignWithPrior(const SweepPoints& points, const urban_nav_core::Sweep& sweep, Prediction& prediction);
+  /// Returns the twists of `free` that no other sensor measured.
+  static std::vector<Vector6d> withoutMeasured(const std::vector<Vector6d>& free, const Prediction& prediction);
+  void comparePrior(const std::optional<MotionPrior>& prior, const Prediction& prediction, LaserPose& result);
   Aligned alignSecond(const SweepPoints& points, const Prediction& prediction);
   void accept(const Aligned& aligned, const SweepPoints& points, const Prediction& prediction,
               const urban_nav_core::Sweep& sweep, LaserPose& result);
   void grow(const Aligned& aligned, const SweepPoints& points);
   bool isPlausible(const Registration& registration, const Prediction& prediction) const;
   void continueByPrediction(const Prediction& prediction, LaserPose& result);
-  void restartIfLost(const SweepPoints& points, LaserPose& result);
+  void restartIfLost(const SweepPoints& points, const Prediction& prediction, LaserPose& result);
   void accumulate(const Pose& T_odom_last, const urban_nav_core::RelativePose& step);
   LaserPose drop(const urban_nav_core::Sweep& sweep) const;
   void assess(const Aligned& aligned, const SweepPoints& points, const urban_nav_core::Sweep& sweep,
@@ -84,6 +92,7 @@ class Pipeline {
   MotionModel motion_;
   ErrorModel errors_;
   GapError gap_;
+  PriorAgreement agreement_;
   std::int32_t sweep_ = 0;  ///< number of the next sweep
   bool started_ = false;
   urban_nav_core::StampNs stamp_ = 0;

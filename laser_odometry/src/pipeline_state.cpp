@@ -92,8 +92,8 @@ std::string Pipeline::fingerprint() const {
 }
 
 void Pipeline::archive(urban_nav_core::Archive& archive) {
-  archive(map_, motion_, errors_, gap_, sweep_, started_, stamp_, T_odom_base_, end_covariance_, has_step_, drift_,
-          covariance_, usual_s_, lost_, pruned_at_, first_);
+  archive(map_, motion_, errors_, gap_, agreement_, sweep_, started_, stamp_, T_odom_base_, end_covariance_, has_step_,
+          drift_, covariance_, usual_s_, lost_, pruned_at_, first_);
   archive.require(sweep_ >= 0 && lost_ >= 0 && usual_s_ >= 0.0, "negative number");
 }
 

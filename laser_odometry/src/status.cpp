@@ -52,6 +52,7 @@ const char* toString(Reason reason) {
     case Reason::Gap: return "gap";
     case Reason::Overlap: return "overlap";
     case Reason::Planar: return "planar";
+    case Reason::Prior: return "prior";
   }
   return "unknown";
 }
@@ -102,6 +103,14 @@ std::optional<Status> findTooFewPoints(const SweepPoints& points, MotionSpace sp
 Status statusOfPlanar(Status status) {
   const std::string sentence = "planar motion only: height, roll and pitch are assumed, not measured";
   if (status.reason == static_cast<int>(Reason::None)) status.reason = static_cast<int>(Reason::Planar);
+  status.sentence += (status.sentence.empty() ? "" : "; ") + sentence;
+  return status;
+}
+
+Status statusOfPrior(Status status, const std::string& contradiction) {
+  const std::string sentence = "the prior of the motion is left out: it contradicts the sweeps" +
+                               (contradiction.empty() ? "" : ", " + contradiction);
+  if (status.reason == static_cast<int>(Reason::None)) status.reason = static_cast<int>(Reason::Prior);
   status.sentence += (status.sentence.empty() ? "" : "; ") + sentence;
   return status;
 }

@@ -17,6 +17,8 @@ urban_nav_core::Status statusOfStamp(urban_nav_core::StampNs last, urban_nav_cor
 std::optional<urban_nav_core::Status> findTooFewPoints(const SweepPoints& points, MotionSpace space);
 /// Returns the status of a planar laser, which states that the motion is planar.
 urban_nav_core::Status statusOfPlanar(urban_nav_core::Status status);
+/// Returns the status of a sweep whose prior was left out. `contradiction`: of the prior; may be empty.
+urban_nav_core::Status statusOfPrior(urban_nav_core::Status status, const std::string& contradiction);
 /// Returns the status of a registration; the sentence names deficiencies.
 urban_nav_core::Status statusOfRegistration(const Registration& registration, const SweepPoints& points,
                                             const Pose& T_odom_base, const Parameters& parameters);

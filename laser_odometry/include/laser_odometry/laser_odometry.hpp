@@ -25,6 +25,7 @@ enum class Reason : int {
   Gap,            ///< time since the previous sweep much longer than the usual sweep period
   Overlap,        ///< the sweep begins long before the end of the previous one
   Planar,         ///< planar scanner: height, roll and pitch are assumed, not measured; the status is OK
+  Prior,          ///< the prior contradicts the sweeps and is left out; the status is OK
 };
 /// Returns "" for None, else the enumerator in small letters and underscores.
 const char* toString(Reason reason);
@@ -40,6 +41,14 @@ enum class Scanner : int {
 /// Motion of base_link between two sweeps by another sensor (stereo, wheels, gyroscope).
 struct MotionPrior {
   urban_nav_core::RelativePose step;  ///< from the previous sweep's reference time to that of this sweep
+  /// Whether the translation is measured; false: it is predicted by constant velocity, and those of `step`, its
+  /// covariance and `within` are not used.
+  bool has_translation = true;
+  /// Covariance of the step by itself, if errors are common to consecutive steps; that of `step` is then the growth
+  /// over a chain of them. nullopt: that of `step`.
+  std::optional<urban_nav_core::Matrix6d> alone;
+  /// Mean twist of base_link within the sweep, m/s and rad/s, for its first deskewing; nullopt: constant velocity.
+  std::optional<urban_nav_core::Vector6d> within;
 };
 
 /// Statistics of one sweep.
@@ -99,7 +108,9 @@ class LaserOdometry {
   LaserOdometry(LaserOdometry&&) noexcept;
   LaserOdometry& operator=(LaserOdometry&&) noexcept;
 
-  /// Registers a sweep. `prior` replaces the prediction by constant velocity; its covariance must be positive definite.
+  /// Registers a sweep. `prior` replaces the prediction by constant velocity: in deskewing, as initial estimate and
+  /// along free directions. Its covariance must be positive definite. A prior that contradicts the sweeps where they
+  /// measure the motion is left out until it has agreed with them for seconds; the status states it.
   /// Scanner::Planar: of `prior`, x, y and yaw are used.
   LaserPose process(const urban_nav_core::Sweep& sweep, const std::optional<MotionPrior>& prior = std::nullopt);
 

@@ -35,18 +35,25 @@ bool LiveLaserOdometry::place(const std::optional<urban_nav_core::Pose>& T_base_
   return true;
 }
 
-void LiveLaserOdometry::process(const urban_nav_core::Sweep& sweep) {
+void LiveLaserOdometry::process(const urban_nav_core::Sweep& sweep,
+                                const std::vector<urban_nav_core::MotionInput>& inputs) {
   if (odometry_ && urban_nav_core::jumpsBack(sweep.reference, newest_.stamp)) end("time went back");
   if (!odometry_) {
-    odometry_ = std::make_unique<LaserOdometry>(parameters_, T_base_lidar_, scanner_);
+    odometry_ = std::make_unique<MotionAidedOdometry>(parameters_, T_base_lidar_, scanner_);
+    motion_ = urban_nav_core::MotionEstimates();
+    begin_ = sweep.reference;
     ++sessions_;
     session_ = urban_nav_live::toOdometrySession(namer_.begin(recording_, sweep.reference).session);
   }
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  const LaserPose pose = odometry_->process(sweep);
+  const LaserPose pose = odometry_->process(sweep, inputs);
   process_ms_ = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   ++sweeps_;
+  const urban_nav_core::MotionEstimates& motion = odometry_->motion();
+  for (std::size_t i = motion_.faults.size(); warning_ && i < motion.faults.size(); ++i)
+    warning_(describe(motion.faults[i], begin_));
+  motion_ = motion;
   if (pose.accepted) newest_ = pose;
   else newest_.status = pose.status;
   if (listener_) listener_(pose, process_ms_);
@@ -80,6 +87,13 @@ urban_nav_live::StageReport LiveLaserOdometry::report() const {
   report.add("residual (m)", figures.residual_m);
   report.add("free directions", newest_.free_directions.size());
   report.add("cells of the local map", figures.map_cells);
+  if (motion_.has_gyroscope && !motion_.gyroscope_left_out) {
+    report.add("bias of the gyroscope (rad/s)", motion_.gyroscope_bias.norm());
+    report.add("delay of the IMU (ms)", 1e3 * motion_.imu_offset_s);
+  }
+  if (motion_.has_wheels && !motion_.wheels_left_out)
+    report.add("measured over true speed of the wheels", motion_.wheel_scale);
+  report.add("motion sensors left out", (motion_.gyroscope_left_out ? 1 : 0) + (motion_.wheels_left_out ? 1 : 0));
   report.add("time of the last sweep (ms)", process_ms_);
   report.add("sweeps", sweeps_);
   report.add("sessions", sessions_);

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "laser_odometry/laser_odometry.hpp"
+#include "laser_odometry/motion_aided_odometry.hpp"
 #include "urban_nav_live/session_namer.hpp"
 #include "urban_nav_live/stage_report.hpp"
 
@@ -18,12 +18,15 @@ class LiveLaserOdometry {
  public:
   using Listener = std::function<void(const LaserPose& pose, double process_ms)>;
 
-  /// `robot`, `recording`: parts of the session ids; may be empty.
+  /// `robot`, `recording`: parts of the session ids; may be empty. `warning`: receives the message when a motion sensor
+  /// is excluded, once for each exclusion.
   LiveLaserOdometry(const Parameters& parameters, Listener listener, Scanner scanner = Scanner::Spatial,
-                    const std::string& robot = "", std::string recording = "")
+                    const std::string& robot = "", std::string recording = "",
+                    std::function<void(const std::string& text)> warning = {})
       : parameters_(parameters),
         scanner_(scanner),
         listener_(std::move(listener)),
+        warning_(std::move(warning)),
         recording_(std::move(recording)),
         namer_(robot) {}
 
@@ -34,8 +37,8 @@ class LiveLaserOdometry {
   bool place(const std::optional<urban_nav_core::Pose>& T_base_lidar, const std::string& base,
              const std::string& frame);
   /// Processes a sweep. The first one begins a session, as does a sweep whose reference is more than a second before
-  /// the newest. Requires place().
-  void process(const urban_nav_core::Sweep& sweep);
+  /// the newest. `inputs`: as in MotionAidedOdometry. Requires place().
+  void process(const urban_nav_core::Sweep& sweep, const std::vector<urban_nav_core::MotionInput>& inputs = {});
   /// Ends the session. `why`: for the report.
   void end(const std::string& why);
   /// Sets the reason why sweeps cannot be used; empty: no fault.
@@ -55,12 +58,15 @@ class LiveLaserOdometry {
   const Parameters parameters_;
   const Scanner scanner_;
   const Listener listener_;
+  const std::function<void(const std::string& text)> warning_;
   const std::string recording_;
   urban_nav_live::SessionNamer namer_;
   urban_nav_core::OdometrySessionPtr session_;
   bool is_placed_ = false;
   urban_nav_core::Pose T_base_lidar_;
-  std::unique_ptr<LaserOdometry> odometry_;
+  std::unique_ptr<MotionAidedOdometry> odometry_;
+  urban_nav_core::MotionEstimates motion_;
+  urban_nav_core::StampNs begin_ = 0;  // first sweep of the session
   LaserPose newest_;
   double process_ms_ = 0.0;
   std::int64_t sweeps_ = 0, sessions_ = 0;

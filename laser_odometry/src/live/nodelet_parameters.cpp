@@ -16,7 +16,7 @@ const Table<NodeletParameters>& nodeletTable() {
   using P = NodeletParameters;
   static const Table<NodeletParameters> rows(
       "",
-      {
+      urban_nav_core::withMotionInput<P>({
           {"base_frame", &P::base_frame, "", urban_nav_core::frames::kBaseLink, false, false, {},
            "Frame of the robot.", "REP-105"},
           {"odom_frame", &P::odom_frame, "", urban_nav_core::frames::kOdom, false, false, {},
@@ -36,8 +36,10 @@ const Table<NodeletParameters>& nodeletTable() {
            "Whether the driver already compensates the motion within a sweep.", "docs/architecture.md"},
           {"queue_size", &P::queue_size, "messages", std::int64_t{20}, std::int64_t{2}, std::int64_t{1000000}, {},
            "Inputs that may wait; beyond that the oldest is dropped and counted.", "docs/architecture.md"},
+          {"max_lateness", &P::max_lateness, "s", 0.1, 0.0, 10.0, {},
+           "How much later than a sweep messages of IMU and wheels may arrive, by stamps.", "docs/architecture.md"},
           urban_nav_live::drainRow(&P::drain_s),
-      });
+      }));
   return rows;
 }
 // clang-format on

@@ -162,10 +162,10 @@ inline std::function<Pose(double)> makeMotion(const FreePlace& place, std::uint6
 }
 
 /// Motion prior of a sweep with a reference time and the previous one; empty: constant speed.
-using PriorOf = std::function<std::optional<MotionPrior>(double from_s, double to_s)>;
+using MakePrior = std::function<std::optional<MotionPrior>(double from_s, double to_s)>;
 
 inline FreeRun driveFreePlace(const FreePlace& place, Parameters parameters, std::uint64_t seed,
-                              const PriorOf& prior = {}) {
+                              const MakePrior& prior = {}) {
   parameters.max_range = place.max_range;
   LaserOdometry odometry(parameters, place.laser.T_base_lidar, place.scanner);
   const BoxWorld world = place.world(seed);

@@ -27,7 +27,7 @@ std::vector<Row<P>> withMotionInput(std::vector<Row<P>> own) {
                                      false,
                                      false,
                                      {"auto", "none", "wheels", "gyroscope"},
-                                     "Motion sensors used with the images: the gyroscope and wheel odometry if "
+                                     "Motion sensors used with images and sweeps: gyroscope and wheel odometry if "
                                      "present, one of them, or none.",
                                      "paper 2.1, eq. 1",
                                      {"swf_vo.motion_input"}},
@@ -39,7 +39,7 @@ std::vector<Row<P>> withMotionInput(std::vector<Row<P>> own) {
                                      10.0,
                                      {},
                                      "Standard deviation of wheel odometry between messages, proportional to distance "
-                                     "and angle; adapted from the images.",
+                                     "and angle; adapted from images and sweeps.",
                                      "paper 2.1, eq. 1",
                                      {"swf_vo.wheel_noise"}},
                                     {"gyro_noise",
