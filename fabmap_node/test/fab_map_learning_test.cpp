@@ -16,7 +16,7 @@ using testing::syntheticPlace;
 using urban_nav_core::StampNs;
 
 constexpr StampNs kLearningSecond = 1'000'000'000;
-constexpr double kSpacing = 6.0;  // m between places
+constexpr double kPlaceSpacing = 6.0;  // m between places
 constexpr std::uint32_t kPlaces = 25, kFirstPlace = 5000;
 
 const PlaceModel& learningModel() {
@@ -27,19 +27,19 @@ const PlaceModel& learningModel() {
         drives[d].push_back({i * kLearningSecond, syntheticPlace(1000 * d + i, 0)});
     TrainingOptions options;
     options.k_means.words = 300;
-    PlaceModel made = trainModel(std::move(drives), options).model;
-    made.single.bias = -6.0;
-    made.single.weights = {0.0, 0.0, 6.0, 12.0};
-    made.single_sequence.reset();
-    made.single.floor = 0.001;
-    made.single.ceiling = 0.999;
-    return made;
+    PlaceModel trained = trainModel(std::move(drives), options).model;
+    trained.single.bias = -6.0;
+    trained.single.weights = {0.0, 0.0, 6.0, 12.0};
+    trained.single_sequence.reset();
+    trained.single.floor = 0.001;
+    trained.single.ceiling = 0.999;
+    return trained;
   }();
   return model;
 }
 
-/// An observation of a place in some light: the first `share` of its features are those of daylight, the others those
-/// of that light.
+/// An observation of a place in some light: the first `share` of its features are those of daylight, the others belong
+/// to that light.
 PlaceDescription describeInLight(std::uint32_t place, std::uint32_t light, double share, std::uint32_t noise) {
   PlaceObservation seen = syntheticPlace(place, noise);
   const PlaceObservation other = syntheticPlace(place + 100000 * light, noise);
@@ -48,7 +48,7 @@ PlaceDescription describeInLight(std::uint32_t place, std::uint32_t light, doubl
   return PlaceDescriber(learningModel(), {}, 280).describe(seen);
 }
 
-/// Three days past the same places: by day, at dusk, and at night, which looks like dusk rather than like day.
+/// Three days past the same places: by day, at dusk, and at night, which resembles dusk more than day.
 class Days {
  public:
   explicit Days(bool learns) : map_(learningModel(), Parameters()) {
@@ -59,7 +59,7 @@ class Days {
   }
 
   void confirm(const std::string& a, std::uint32_t day_a, const std::string& b, std::uint32_t day_b, std::uint32_t i) {
-    map_.confirm({{a, stamp(day_a, i)}, {b, stamp(day_b, i)}, kSpacing * i, kSpacing * i, 0.3, true});
+    map_.confirm({{a, stamp(day_a, i)}, {b, stamp(day_b, i)}, kPlaceSpacing * i, kPlaceSpacing * i, 0.3, true});
   }
   /// Returns the belief at each place of another day, of places from `first` on.
   std::vector<PlaceBelief> drive(const std::string& name, std::uint32_t light, double share,
@@ -68,7 +68,7 @@ class Days {
     std::vector<PlaceBelief> beliefs;
     for (std::uint32_t i = 0; i < kPlaces; ++i)
       beliefs.push_back(
-          map_.process(stamp(day_, i), describeInLight(first + i, light, share, day_), kSpacing * i).belief);
+          map_.process(stamp(day_, i), describeInLight(first + i, light, share, day_), kPlaceSpacing * i).belief);
     ++day_;
     return beliefs;
   }

@@ -50,7 +50,7 @@ void ColumnGrid::extend(std::uint32_t number, float z) {
   if (column.low < low || (column.low == low && number < lowest)) lowest = number;
 }
 
-// Columns within reach are looked up directly, because a distance transform would process their bounding rectangle,
+// Columns within reach are searched directly, because a distance transform would process their bounding rectangle,
 // which may be long and thin.
 ColumnGrid::Surrounding ColumnGrid::measureSurrounding(std::uint32_t number) const {
   const Column& column = columns_[number];

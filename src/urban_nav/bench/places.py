@@ -256,7 +256,7 @@ def main():
     bench.write_claims()
     if len(arguments.kind or KINDS) > 1:
         bench.rows.append(summary(("all", "", "+ second look"), [claim for _, _, claim in bench.claims]))
-    show(COLUMNS, bench.rows, ["Right within 7.5 m, wrong beyond 10 m, distances between are not counted; every match of strangers is wrong. All: without the rows in the first day alone. Real images: within 3 images, beyond 20. "
+    show(COLUMNS, bench.rows, ["Right within 7.5 m, wrong beyond 10 m, distances between are not counted; every match of unrelated places is wrong. All: without the rows in the first day alone. Real images: within 3 images, beyond 20. "
                                "Otherwise default mask and parameters."], measured, arguments.output)
 
 

@@ -24,7 +24,7 @@ constexpr int kDepthImages = 20;
 constexpr double kDepthStart = 1.5e9, kDepthPeriod = 0.05;  // s
 const Pose kMountedDepth(urban_nav_core::Quaterniond(0.5, -0.5, 0.5, -0.5), {0.3, 0.0, 0.8});
 
-/// What differs from a recording that can be used.
+/// Differences from a recording that can be used.
 struct DepthRecording {
   std::string encoding = "16UC1";
   bool has_info = true, has_tf = true;

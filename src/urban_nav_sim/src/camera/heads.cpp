@@ -18,7 +18,7 @@ Imager::Settings toImagerSettings(const CameraDefects& defects, double sensitivi
 Imager::Settings colourSettings(const CameraDefects& defects, const Day& day) {
   Imager::Settings settings = toImagerSettings(defects, 1.0);
   // Balanced for the light of the day: a white sheet in the sun is grey. After sunset it remains at daylight, as a
-  // fixed setting: the low sun and lamps look warm.
+  // fixed setting: the low sun and lamps are of warm colour.
   if (day.light == Light::Day) {
     const Eigen::Vector3f light = day.sun + day.sky;
     settings.white_balance = Eigen::Vector3f::Constant(light.y()).cwiseQuotient(light);

@@ -125,14 +125,14 @@ Lights::Sources Lights::sourcesAt(const SurfacePoint& point) const {
   return found;
 }
 
-Vector3f Lights::own(const SurfacePoint& point, const Appearance& look) const {
+Vector3f Lights::own(const SurfacePoint& point, const Appearance& surface) const {
   Vector3f light = Vector3f::Zero();
-  if (look.glass > 0.0F) {
+  if (surface.glass > 0.0F) {
     if (const auto room = rooms_.find(toKey(point.corner)); room != rooms_.end()) {
       // Textures of windows run from (0, 0) to (2, 2): the lamp is high in the room, curtains are at the sides.
       const float aside = std::clamp((std::abs(point.spot.at.x() - 1.0F) - 0.55F) / 0.15F, 0.0F, 1.0F);
       const float above = std::clamp(0.5F * point.spot.at.y(), 0.0F, 1.0F);
-      light += look.glass * (1.0F - 0.5F * aside) * (0.7F + 0.5F * above) * room->second;
+      light += surface.glass * (1.0F - 0.5F * aside) * (0.7F + 0.5F * above) * room->second;
     }
   }
   if (!lamps_.empty()) {

@@ -36,7 +36,7 @@ class Lights {
   Sources sourcesAt(const SurfacePoint& point) const;
 
   /// Returns the radiance of the point itself: the glass of a lamp, a lit room seen through a window pane.
-  Eigen::Vector3f own(const SurfacePoint& point, const Appearance& look) const;
+  Eigen::Vector3f own(const SurfacePoint& point, const Appearance& surface) const;
 
  private:
   const std::vector<std::uint32_t>& lampsNear(const Eigen::Vector3f& position) const;
