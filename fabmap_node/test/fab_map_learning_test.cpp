@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "fabmap_node/fab_map.hpp"
-#include "fabmap_node/training/train_model.hpp"
-#include "support/synthetic_places.hpp"
+#include "support/synthetic_model.hpp"
 
 namespace fabmap_node {
 namespace {
@@ -20,21 +19,7 @@ constexpr double kPlaceSpacing = 6.0;  // m between places
 constexpr std::uint32_t kPlaces = 25, kFirstPlace = 5000;
 
 const PlaceModel& learningModel() {
-  static const PlaceModel model = [] {
-    std::vector<TrainingDrive> drives(3);
-    for (std::uint32_t d = 0; d < 3; ++d)
-      for (std::uint32_t i = 0; i < 40; ++i)
-        drives[d].push_back({i * kLearningSecond, syntheticPlace(1000 * d + i, 0)});
-    TrainingOptions options;
-    options.k_means.words = 300;
-    PlaceModel trained = trainModel(std::move(drives), options).model;
-    trained.single.bias = -6.0;
-    trained.single.weights = {0.0, 0.0, 6.0, 12.0};
-    trained.single_sequence.reset();
-    trained.single.floor = 0.001;
-    trained.single.ceiling = 0.999;
-    return trained;
-  }();
+  static const PlaceModel model = testing::trainOnSyntheticPlaces(-6.0, {0.0, 0.0, 6.0, 12.0});
   return model;
 }
 

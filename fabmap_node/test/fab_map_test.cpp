@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fabmap_node/training/train_model.hpp"
-#include "support/synthetic_places.hpp"
+#include "support/synthetic_model.hpp"
 
 namespace fabmap_node {
 namespace {
@@ -21,20 +20,7 @@ constexpr StampNs kPlaceSecond = 1'000'000'000;
 
 /// Model of synthetic places, with a calibration that announces clear matches.
 const PlaceModel& syntheticModel() {
-  static const PlaceModel model = [] {
-    std::vector<TrainingDrive> drives(3);
-    for (std::uint32_t d = 0; d < 3; ++d)
-      for (std::uint32_t i = 0; i < 40; ++i) drives[d].push_back({i * kPlaceSecond, syntheticPlace(1000 * d + i, 0)});
-    TrainingOptions options;
-    options.k_means.words = 300;
-    PlaceModel made = trainModel(std::move(drives), options).model;
-    made.single.bias = -20.0;
-    made.single.weights = {0.0, 0.0, 60.0, 0.0};
-    made.single_sequence.reset();
-    made.single.floor = 0.001;
-    made.single.ceiling = 0.999;
-    return made;
-  }();
+  static const PlaceModel model = testing::trainOnSyntheticPlaces(-20.0, {0.0, 0.0, 60.0, 0.0});
   return model;
 }
 

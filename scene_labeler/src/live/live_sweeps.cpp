@@ -37,7 +37,7 @@ void LiveSweeps::note(bool is_dropped) {
 void LiveSweeps::dropOldest() {
   if (isCovered(waiting_.front())) {
     ++counts_.too_many;
-    note(true);
+    if (counts_.labelled > 0) note(true);  // the first ones arrive at once, when their conventions are known
   } else {
     ++counts_.unplaced;
   }

@@ -20,8 +20,13 @@ std::string listImageTopics(Recording& recording) {
 
 }  // namespace
 
-std::string describeNoImages(Recording& recording, const std::vector<Finding>& clouds) {
+std::string describeNoImages(Recording& recording, const BagTopics& topics, const std::vector<Finding>& clouds) {
+  const std::optional<ChosenTopic> depth = topics.find(Role::Depth0);
   return "has no stereo pair of image topics: " + listImageTopics(recording) +
+         (depth ? "; " + depth->name +
+                      " is that of a depth camera, which adds surfaces to the map of a robot whose "
+                      "motion is measured by a stereo camera or a LiDAR"
+                : "") +
          (clouds.empty() ? "" : "; " + clouds.front().text + ", and have no 3D pose");
 }
 

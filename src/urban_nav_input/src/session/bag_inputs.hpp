@@ -18,7 +18,7 @@ std::vector<InputStream> describeInputs(Recording& recording, const BagTopics& t
 
 /// Returns the fault of a recording without a stereo pair, with its image topics and the options to choose them.
 /// `clouds`: findings on planar lasers that publish clouds.
-std::string describeNoImages(Recording& recording, const std::vector<Finding>& clouds);
+std::string describeNoImages(Recording& recording, const BagTopics& topics, const std::vector<Finding>& clouds);
 
 /// Returns the motion sensors of `motion_input` that have a topic. Throws DataError naming the recording if an
 /// explicitly requested one is absent.

@@ -67,7 +67,7 @@ class BagSource : public Source {
     info_.has_images = topics_.find(Role::Left) && topics_.find(Role::Right);
     const bool has_sweeps = options.with_sweeps && topics_.find(Role::Points0);
     if (!info_.has_images && !has_sweeps && !(mayUsePlanarLaser() && hasLaser(topics_)))
-      throw DataError(name_, describeNoImages(recording_, planar_clouds_.findings()), "");
+      throw DataError(name_, describeNoImages(recording_, topics_, planar_clouds_.findings()), "");
     if (info_.has_images) motion_ = chooseMotion(topics_, options.motion_input, name_);
     info_.name = name_ + (paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " more" : "");
     info_.kind = "bag";

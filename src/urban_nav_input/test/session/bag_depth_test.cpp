@@ -10,7 +10,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "urban_nav_core/types/error.hpp"
+#include "urban_nav_input/examination/diagnosis.hpp"
 #include "urban_nav_input/session/open.hpp"
+#include "urban_nav_input/session/sessions.hpp"
 #include "urban_nav_input/testing/folders.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 
@@ -137,6 +140,40 @@ TEST(BagDepth, ACameraThatCannotBeUsedIsNamedWithTheReason) {
   expect({"16UC1", false}, "it has no camera_info (--topic depth0_info:=NAME)");
   expect({"16UC1", true, false}, "no static tf from base_link to \"depth_optical\"");
   expect({"16UC1", true, true, 16}, "its images have 8x6 pixels");
+}
+
+TEST(BagDepth, DoctorNamesTheRepair) {
+  const TemporaryFolder folder;
+  const auto findings = [&](const DepthRecording& of) {
+    const std::string path = writeDepth(folder, of);
+    SourceOptions options;
+    options.with_sweeps = true;
+    std::string text;
+    for (const Finding& each :
+         examine(findSessions({path}).front(), options, [](std::int64_t, std::int64_t) {}).findings)
+      if (each.text.find("depth0") != std::string::npos) text += std::string(toString(each.kind)) + ": " + each.remedy;
+    return text;
+  };
+  EXPECT_EQ(findings({}), "");
+  EXPECT_EQ(findings({"16UC1", false}).rfind("calibration: record its camera_info", 0), 0U);
+  EXPECT_EQ(findings({"rgb8"}).rfind("depth: record depth images in mm", 0), 0U);
+  EXPECT_NE(findings({"16UC1", true, false}).find("--transform base_link"), std::string::npos);
+}
+
+TEST(BagDepth, OneAloneIsRefusedWithTheReason) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("alone.bag");
+  {
+    rosbag::Bag bag(path, rosbag::bagmode::Write);
+    bag.write("/camera/depth/image_raw", ros::Time(kDepthStart), depthAt(ros::Time(kDepthStart), "16UC1"));
+  }
+  try {
+    readDepth(path);
+    FAIL();
+  } catch (const urban_nav_core::DataError& error) {
+    EXPECT_NE(std::string(error.what()).find("/camera/depth/image_raw is that of a depth camera"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(BagDepth, DistortionThatIsNotCorrectedIsNamed) {
