@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
 #include "urban_nav_core/types/motion_input.hpp"
 #include "urban_nav_input/recording/bag_topics.hpp"
 #include "urban_nav_input/recording/recording.hpp"
+#include "urban_nav_input/session/planar_clouds.hpp"
 #include "urban_nav_input/session/source.hpp"
 
 namespace urban_nav_input {
@@ -18,6 +20,14 @@ std::vector<InputStream> describeInputs(Recording& recording, const BagTopics& t
 
 /// Returns the image topics of a recording with the options to choose them, for an error message.
 std::string listImageTopics(Recording& recording);
+
+/// Returns the topics of the stereo images. Requires both.
+std::vector<std::string> imageTopics(const BagTopics& topics);
+
+/// Adds the chosen topics that are read to `used`: all but clouds that are neither of a planar laser nor among
+/// `lidars`.
+void addUsedTopics(const BagTopics& topics, const PlanarClouds& planar_clouds, const std::vector<std::string>& lidars,
+                   std::set<std::string>& used);
 
 /// Returns the motion sensors of `motion_input` that have a topic. Throws DataError naming the recording if an
 /// explicitly requested one is absent.
