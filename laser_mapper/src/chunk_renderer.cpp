@@ -101,8 +101,8 @@ void addViews(const Parameters& parameters, const Trajectory& T_map_base,
     if (own.frame->stamp < begin || own.frame->stamp >= begin + kChunkNs) continue;
     const Eigen::Vector3d camera = own.T_frame_camera.t();
     for (const FusedPoint& point : fuseDepth(own, others, rule))
-      grid.add(stereoPoint(own.frame->stamp, point.p.cast<double>(), camera, point.sigma, point.grey), kStereo,
-               kWeightSigma * kWeightSigma / (point.sigma * point.sigma), point.views);
+      grid.add(stereoPoint(own.frame->stamp, point.p.cast<double>(), camera, point.sigma, point.grey),
+               own.frame->sensor, kWeightSigma * kWeightSigma / (point.sigma * point.sigma), point.views);
   }
 }
 
@@ -166,10 +166,9 @@ RenderedChunk renderChunk(const Parameters& parameters, const Trajectory& T_map_
   addLasers(parameters, T_map_base, input.lasers, grid, chunk.beams);
   addLidars(parameters, T_map_base, input.lidars, grid, chunk.beams);
   if (parameters.ghosts) markMoving(parameters, T_map_base, input.lidars, grid);
-  if (parameters.stereo) {
+  if (parameters.stereo)
     for (const StereoFrame& frame : input.stereo) addStereo(parameters, T_map_base, frame, stereo_grid);
-    addViews(parameters, T_map_base, input.views, begin, stereo_grid);
-  }
+  addViews(parameters, T_map_base, input.views, begin, stereo_grid);
   std::map<Tile, std::vector<MapCell>> parts;
   grid.appendTo(parts);
   stereo_grid.appendTo(parts);

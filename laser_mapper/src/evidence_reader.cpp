@@ -11,6 +11,7 @@
 namespace laser_mapper {
 
 using urban_nav_core::StampNs;
+using urban_nav_store::DepthImage;
 using urban_nav_store::DepthView;
 using urban_nav_store::LidarSweep;
 using urban_nav_store::MountedLidar;
@@ -20,9 +21,9 @@ namespace {
 
 constexpr StampNs kEvidenceSpacing = 400'000'000;  // between sweeps used as evidence of free space
 
-template <typename Value>
-void dropBefore(std::map<StampNs, Value>& values, StampNs stamp) {
-  values.erase(values.begin(), values.lower_bound(stamp));
+template <typename Key, typename Value>
+void dropBefore(std::map<Key, Value>& values, const Key& first) {
+  values.erase(values.begin(), values.lower_bound(first));
 }
 
 /// Returns the first sweep of each interval of kEvidenceSpacing.
@@ -45,7 +46,29 @@ EvidenceReader::EvidenceReader(urban_nav_store::Store& store, urban_nav_store::S
   TableStore<MountedLidar>(store_).forEach(session_, [&](const MountedLidar& row) { lidars_.push_back({row, {}, 0}); });
 }
 
-void EvidenceReader::advance(StampNs from, StampNs to, bool stereo) {
+void EvidenceReader::readViews(StampNs from, StampNs to, const Parameters& parameters) {
+  if (parameters.stereo) {
+    DepthView key;
+    key.session = session_;
+    TableStore<DepthView>(store_).forEachBetween(key, from, to, [&](const DepthView& row) {
+      views_[{row.stamp, kStereo}] = {std::make_shared<const DepthFrame>(depthFrame(row)),
+                                      urban_nav_store::sha256(row.packed)};
+    });
+  }
+  for (std::size_t camera = 0; camera < kMostDepthCameras; ++camera) {
+    DepthImage key;
+    key.session = session_;
+    key.role = depthRole(camera);
+    const std::uint8_t sensor = depthSensor(camera);
+    TableStore<DepthImage>(store_).forEachBetween(key, from, to, [&](const DepthImage& row) {
+      DepthFrame frame = depthFrame(row, sensor, parameters.depth_sigma);
+      std::string digest = urban_nav_store::sha256(row.packed) + std::to_string(frame.floor);
+      views_[{row.stamp, sensor}] = {std::make_shared<const DepthFrame>(std::move(frame)), std::move(digest)};
+    });
+  }
+}
+
+void EvidenceReader::advance(StampNs from, StampNs to, const Parameters& parameters) {
   for (Lidar& lidar : lidars_) {
     dropBefore(lidar.sweeps, from);
     const LidarSweep key{session_, lidar.mounted.role, 0, {}};
@@ -54,20 +77,13 @@ void EvidenceReader::advance(StampNs from, StampNs to, bool stereo) {
         [&](const LidarSweep& row) { lidar.sweeps[row.reference] = std::make_shared<const LidarSweep>(row); });
     lidar.read_to = std::max(lidar.read_to, to);
   }
-  dropBefore(views_, from);
-  dropBefore(view_digests_, from);
-  if (!stereo) return;
-  DepthView key;
-  key.session = session_;
-  TableStore<DepthView>(store_).forEachBetween(key, std::max(from, views_read_to_), to - 1, [&](const DepthView& row) {
-    views_[row.stamp] = std::make_shared<const DepthFrame>(depthFrame(row));
-    view_digests_[row.stamp] = urban_nav_store::sha256(row.packed);
-  });
+  dropBefore(views_, ViewKey(from, 0));
+  readViews(std::max(from, views_read_to_), to - 1, parameters);
   views_read_to_ = std::max(views_read_to_, to);
 }
 
-std::string EvidenceReader::read(StampNs begin, bool stereo, ChunkInput& input) {
-  advance(begin - kEvidenceNs, begin + kChunkNs + kEvidenceNs, stereo);
+std::string EvidenceReader::read(StampNs begin, const Parameters& parameters, ChunkInput& input) {
+  advance(begin - kEvidenceNs, begin + kChunkNs + kEvidenceNs, parameters);
   std::string read;
   for (const Lidar& lidar : lidars_) {
     LidarInput input_of{lidar.mounted.T_base_lidar, lidarSensor(lidar.mounted.role), {}, chooseSweeps(lidar.sweeps)};
@@ -77,8 +93,10 @@ std::string EvidenceReader::read(StampNs begin, bool stereo, ChunkInput& input) 
     }
     input.lidars.push_back(std::move(input_of));
   }
-  for (const auto& [stamp, view] : views_) input.views.push_back(view);
-  for (const auto& [stamp, digest] : view_digests_) read += std::to_string(stamp) + " " + digest + "\n";
+  for (const auto& [key, view] : views_) {
+    input.views.push_back(view.frame);
+    read += std::to_string(key.first) + " " + view.digest + "\n";
+  }
   return read;
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "laser_mapper/chunk_renderer.hpp"
@@ -19,9 +20,9 @@ class EvidenceReader {
   /// The store must outlive the reader.
   EvidenceReader(urban_nav_store::Store& store, urban_nav_store::SessionId session);
 
-  /// Adds the sweeps and, with `stereo`, the depth images of a chunk to `input`. Returns a digest of them; empty if
-  /// there are none. Throws DataError if the store is damaged.
-  std::string read(urban_nav_core::StampNs begin, bool stereo, ChunkInput& input);
+  /// Adds the sweeps, the images of depth cameras and, with Parameters::stereo, those of dense stereo of a chunk to
+  /// `input`. Returns a digest of them; empty if there are none. Throws DataError if the store is damaged.
+  std::string read(urban_nav_core::StampNs begin, const Parameters& parameters, ChunkInput& input);
 
  private:
   using SweepPtr = std::shared_ptr<const urban_nav_store::LidarSweep>;
@@ -31,13 +32,19 @@ class EvidenceReader {
     std::map<urban_nav_core::StampNs, SweepPtr> sweeps;
     urban_nav_core::StampNs read_to = 0;
   };
-  void advance(urban_nav_core::StampNs from, urban_nav_core::StampNs to, bool stereo);
+  /// Identifies a depth image: its stamp, then its sensor as MapCell::laser.
+  using ViewKey = std::pair<urban_nav_core::StampNs, std::uint8_t>;
+  struct View {
+    ViewPtr frame;
+    std::string digest;
+  };
+  void advance(urban_nav_core::StampNs from, urban_nav_core::StampNs to, const Parameters& parameters);
+  void readViews(urban_nav_core::StampNs from, urban_nav_core::StampNs to, const Parameters& parameters);
 
   urban_nav_store::Store& store_;
   const urban_nav_store::SessionId session_;
   std::vector<Lidar> lidars_;
-  std::map<urban_nav_core::StampNs, ViewPtr> views_;
-  std::map<urban_nav_core::StampNs, std::string> view_digests_;
+  std::map<ViewKey, View> views_;
   urban_nav_core::StampNs views_read_to_ = 0;
 };
 

@@ -74,7 +74,7 @@ bool SessionChunks::isCurrent(const Stored& stored, const Task& task) const {
 }
 
 void SessionChunks::readEvidence(Task& task) {
-  const std::string read = evidence_.read(task.begin, parameters_.stereo, task.input);
+  const std::string read = evidence_.read(task.begin, parameters_, task.input);
   if (!read.empty()) task.settings = urban_nav_store::sha256(task.settings + read);
 }
 

@@ -18,7 +18,7 @@ constexpr float kUnitWeightSigma = 0.01F;  // m: standard deviation of a stereo 
 
 /// Returns the weight of one beam of a cell in the means of a voxel.
 float beamWeight(const MapCell& cell) {
-  if (cell.laser == kStereo) {
+  if (isOfImages(cell.laser)) {
     const float sigma = std::max(cell.range, 1e-3F);
     return kUnitWeightSigma * kUnitWeightSigma / (sigma * sigma);
   }
@@ -44,7 +44,7 @@ void TileMerger::add(const CellSource& source, const std::vector<MapCell>& cells
     weights_.reserve(room);
   }
   for (const MapCell& from : cells) {
-    if ((from.laser == kStereo) != (kind == Kind::Stereo)) continue;
+    if (isOfImages(from.laser) != (kind == Kind::Stereo)) continue;
     if (from.is_ghost) {
       ghost_beams_ += from.count;
       continue;

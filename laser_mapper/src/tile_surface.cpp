@@ -149,7 +149,7 @@ std::vector<MapPoint> makeStereoSurface(const Parameters& parameters, const Tile
     point.sigma = std::sqrt(sigma * sigma / independent + static_cast<float>(pose * pose));
     point.intensity = static_cast<std::uint8_t>(std::lround(std::clamp(cell.intensity, 0.0F, 255.0F)));
     point.raw_intensity = point.red = point.green = point.blue = point.intensity;
-    point.laser = kStereoSensor;
+    point.laser = cell.laser == kStereo ? kStereoSensor : cell.laser;
     point.pass = cell.pass;
     point.count = static_cast<std::uint16_t>(std::min(cell.count, 65535.0F));
     point.stamp = cell.stamp;

@@ -138,7 +138,8 @@ TEST(ParameterEffects, EachParameterChangesTheMap) {
          {"stereo_sigma", 0.01},
          {"max_gap", 0.1}}},
        {"poses that moved", map_twice, {{"max_shift", 0.1}}}},
-      {{"constraints", "GraphPlanesTest.AreSearchedInTheScansUnlessSwitchedOff", "../src/urban_nav/test"}});
+      {{"depth_sigma", "SensorsMap.ALargerErrorOfADepthCameraIsInThePoints"},
+       {"constraints", "GraphPlanesTest.AreSearchedInTheScansUnlessSwitchedOff", "../src/urban_nav/test"}});
   EXPECT_EQ(faults, "");
 }
 

@@ -9,6 +9,7 @@
 #include "laser_mapper/sensors.hpp"
 #include "support/lidar_sweeps.hpp"
 #include "urban_nav_store/table_store.hpp"
+#include "urban_nav_store/tables/depth_image.hpp"
 #include "urban_nav_store/tables/ground_view.hpp"
 #include "urban_nav_store/tables/mounted_lidar.hpp"
 
@@ -56,6 +57,20 @@ class SensorsMap : public ::testing::Test {
     ground.stamp = view.stamp;
     TableStore<urban_nav_store::GroundView>(*store_).put(ground);
   }
+  /// An image of a depth camera with the error that the parameter depth_sigma states.
+  void putDepthImage(std::size_t pose, const std::string& role) {
+    constexpr float kFocalBaselineOfView = 260.0F * 0.25F;
+    const auto sigma = static_cast<float>(Parameters().depth_sigma) * kFocalBaselineOfView;
+    urban_nav_store::DepthView view = testing_room::depthOfScene(
+        testing_room::rangeInRoom, trajectory_[pose].pose, trajectory_[pose].stamp, sigma, static_cast<unsigned>(pose));
+    urban_nav_store::DepthView::Samples samples = view.samples();
+    for (float& disparity : samples.disparity)
+      disparity *= static_cast<float>(urban_nav_store::DepthImage::kFocalBaseline) / kFocalBaselineOfView;
+    std::fill(samples.sigma.begin(), samples.sigma.end(), 1.0F / 64.0F);
+    TableStore<urban_nav_store::DepthImage>(*store_).put(
+        {kSensorSession, role, view.stamp, "depth_optical_frame", view.step, view.fx, view.fy, view.cx, view.cy,
+         view.T_base_camera, urban_nav_store::DepthView::pack(samples)});
+  }
   void putSweep(urban_nav_core::StampNs reference, const Scene& scene) {
     TableStore<urban_nav_store::MountedLidar>(*store_).put(
         {kSensorSession, "points0", "velodyne", testing_room::roomLidar()});
@@ -64,8 +79,8 @@ class SensorsMap : public ::testing::Test {
          urban_nav_store::LidarSweep::pack(testing_room::sweepOfScene(scene, trajectory_, reference))});
   }
 
-  std::vector<MapPoint> mapPoints(RenderStatistics* statistics = nullptr) {
-    LaserMap map(Parameters(), *store_, {{kSensorSession, &trajectory_, nullptr}});
+  std::vector<MapPoint> mapPoints(RenderStatistics* statistics = nullptr, const Parameters& parameters = Parameters()) {
+    LaserMap map(parameters, *store_, {{kSensorSession, &trajectory_, nullptr}});
     const RenderStatistics rendered = map.render();
     if (statistics != nullptr) *statistics = rendered;
     std::vector<MapPoint> all;
@@ -100,6 +115,32 @@ TEST_F(SensorsMap, DepthImagesAloneMakeAMap) {
     ASSERT_GT(point.sigma, 0.0F);
   }
   EXPECT_EQ(header().back(), "sensor 255 stereo stereo_left_optical_frame");
+}
+
+TEST_F(SensorsMap, ADepthCameraMakesAMapWithItsOwnSensorId) {
+  for (std::size_t i = 0; i < trajectory_.size(); i += 10) putDepthImage(i, "depth1");
+  const std::vector<MapPoint> points = mapPoints();
+  ASSERT_GT(points.size(), 3000U);
+  const std::vector<double> errors = distancesToRoom(points);
+  EXPECT_LT(errors[errors.size() / 2], 0.01);
+  EXPECT_LT(errors[errors.size() * 99 / 100], 0.06);
+  for (const MapPoint& point : points) ASSERT_EQ(point.laser, depthSensor(1));
+  EXPECT_EQ(header().back(), "sensor 124 depth1 depth_optical_frame");
+  EXPECT_EQ(missingMeasurements(*store_, kSensorSession), "");
+}
+
+TEST_F(SensorsMap, ALargerErrorOfADepthCameraIsInThePoints) {
+  for (std::size_t i = 0; i < trajectory_.size(); i += 10) putDepthImage(i, "depth0");
+  const auto median = [](const std::vector<MapPoint>& points) {
+    std::vector<float> sigmas;
+    for (const MapPoint& point : points) sigmas.push_back(point.sigma);
+    std::nth_element(sigmas.begin(), sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2), sigmas.end());
+    return sigmas[sigmas.size() / 2];
+  };
+  const float stated = median(mapPoints());
+  Parameters coarse;
+  coarse.depth_sigma *= 2.0;
+  EXPECT_GT(median(mapPoints(nullptr, coarse)), 1.5F * stated) << "the chunks are rendered again";
 }
 
 TEST_F(SensorsMap, TwoDepthImagesAreNotEnough) {
@@ -153,7 +194,7 @@ TEST_F(SensorsMap, DepthImagesFillWhatSweepsDidNotMeasure) {
 
 TEST_F(SensorsMap, NamesWhatIsMissing) {
   EXPECT_EQ(missingMeasurements(*store_, kSensorSession),
-            "no laser scans, sweeps of a 3D LiDAR or depth images of dense stereo");
+            "no laser scans, sweeps of a 3D LiDAR, images of a depth camera or of dense stereo");
   putDepth(0, testing_room::rangeInRoom);
   EXPECT_EQ(missingMeasurements(*store_, kSensorSession), "");
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,15 +15,18 @@ namespace laser_mapper {
 
 using urban_nav_registration::Cell;
 
-/// Value of MapCell::laser for dense stereo.
-constexpr std::uint8_t kStereo = 127;
+/// Values of MapCell::laser for depth cameras, and for dense stereo.
+constexpr std::uint8_t kFirstDepthCamera = 123, kStereo = 127;
+constexpr std::size_t kMostDepthCameras = kStereo - kFirstDepthCamera;
+/// Returns whether a cell holds points on which several depth images agree.
+inline bool isOfImages(std::uint8_t sensor) { return sensor >= kFirstDepthCamera; }
 
 /// Voxels of a tile along x and y: a tile is a column of the map.
 constexpr int kTileCells = 256;
 /// Largest magnitude of a voxel's height index in a tile.
 constexpr int kMaxHeightCell = 32767;
 
-/// Beams of one chunk that ended in one voxel of the map's grid; or points of dense stereo (laser kStereo), whose grey
+/// Beams of one chunk that ended in one voxel of the map's grid; or points of depth images (isOfImages()), whose grey
 /// level is `intensity` and whose standard deviation along the line of sight is `range`. Values have the resolution of
 /// the store.
 struct MapCell {

@@ -20,6 +20,7 @@ struct Parameters {
   double ghost_gap;  // s
   bool stereo;
   double stereo_sigma;  // m
+  double depth_sigma;   // m at 1 m
   double max_gap;       // s
   double max_shift;     // m
   bool constraints;

@@ -14,8 +14,8 @@ namespace laser_mapper {
 
 /// Sensor ids of points (MapPoint::laser, column `laser` of the files): 0 and 1 are the lasers at the frames laser_left
 /// and laser_right, 2...31 other planar lasers in the order of their frames, kFirstLidar + N the 3D LiDAR with the role
-/// pointsN.
-constexpr std::uint8_t kFirstLidar = 32, kLastLidar = 126;
+/// pointsN, kFirstDepthCamera + N the depth camera with the role depthN.
+constexpr std::uint8_t kFirstLidar = 32, kLastLidar = 122;
 /// Dense stereo.
 constexpr std::uint8_t kStereoSensor = 255;
 
@@ -26,10 +26,14 @@ std::uint8_t planarSensor(const std::string& frame, std::size_t index);
 /// Returns the id of a 3D LiDAR by its role ("points0"); kLastLidar for any other word.
 std::uint8_t lidarSensor(const std::string& role);
 
+/// Returns the id of a depth camera, 0 ... kMostDepthCameras - 1, and its role ("depth0").
+std::uint8_t depthSensor(std::size_t camera);
+std::string depthRole(std::size_t camera);
+
 /// Role and frame of a sensor id.
 struct SensorName {
   std::uint8_t id = 0;
-  std::string role;   ///< "laser_left", "points0", "stereo"; "laser" for planar lasers at other frames
+  std::string role;   ///< "laser_left", "points0", "depth0", "stereo"; "laser0" ... for other planar lasers
   std::string frame;  ///< frame of its measurements
 };
 /// Returns the sensors with stored measurements in the sessions, ascending by id. An id of different frames in

@@ -12,7 +12,6 @@ using Eigen::Vector3f;
 namespace {
 
 constexpr float kAgreementGate = 3.0F;     // standard deviations within which two disparities agree
-constexpr float kMatchingFloor = 0.15F;    // px: errors common to adjacent pixels, not in their variances
 constexpr float kIndependentViews = 6.0F;  // limit, because images of one surface share matching errors
 constexpr float kLeastDepth = 0.3F;        // m
 
@@ -45,7 +44,7 @@ Comparison compare(const OtherView& other, const Vector3f& ray, float depth, flo
   if (!(measured > 0.0F)) return {};
   const float expected = frame.focal_baseline / q.z();
   const float slope = -expected / q.z() * along.z();  // px per m of depth
-  const float sigma = std::hypot(frame.samples.sigma[at], kMatchingFloor);
+  const float sigma = std::hypot(frame.samples.sigma[at], frame.floor);
   const float difference = measured - expected;
   const float gate = kAgreementGate * std::hypot(sigma, slope * own_sigma);
   if (difference < -gate) return {Comparison::Kind::Through, 0.0F, 0.0F};
@@ -87,7 +86,7 @@ std::vector<FusedPoint> fuseDepth(const PosedDepth& own, const std::vector<Posed
       if (depth > rule.farthest || depth < kLeastDepth) continue;
       const Vector3f ray((frame.step * static_cast<float>(u) - frame.cx) / frame.fx,
                          (frame.step * static_cast<float>(v) - frame.cy) / frame.fy, 1.0F);
-      const float sigma = depth / disparity * std::hypot(frame.samples.sigma[at], kMatchingFloor);
+      const float sigma = depth / disparity * std::hypot(frame.samples.sigma[at], frame.floor);
       float weights = 1.0F / (sigma * sigma), errors = 0.0F;
       int views = 1, through = 0;
       for (const OtherView& other : asked) {

@@ -78,9 +78,15 @@ std::vector<TrainingFold> restoreFolds(const LabelModel& model) {
 
 CorrectionCount addCorrections(const LabelModel& model, const Scene& scene, std::vector<SceneClass> labels,
                                int superpixel_size, const std::string& fold, std::vector<TrainingFold>& folds) {
+  const FeatureTable table = measureSceneFeatures(model, scene);
+  return addCorrections(model, table, labelScene(model, scene, superpixel_size, table), std::move(labels), fold, folds);
+}
+
+CorrectionCount addCorrections(const LabelModel& model, const FeatureTable& table, const SceneLabels& answer,
+                               std::vector<SceneClass> labels, const std::string& fold,
+                               std::vector<TrainingFold>& folds) {
   const bool has_one_wall =
       std::find(model.classes.begin(), model.classes.end(), SceneClass::Wall) != model.classes.end();
-  const SceneLabels answer = labelScene(model, scene, superpixel_size);
   CorrectionCount count;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (has_one_wall) labels[i] = withOneWall(labels[i]);
@@ -93,8 +99,7 @@ CorrectionCount addCorrections(const LabelModel& model, const Scene& scene, std:
   SamplingLimits limits;
   limits.held_out = 0;  // wrong answers only are not representative for calibration
   std::vector<TrainingFold> made;
-  addScene({fold, measureSceneFeatures(model, scene), labels, std::vector<std::uint32_t>(labels.size(), kNoPatch)},
-           limits, made);
+  addScene({fold, table, labels, std::vector<std::uint32_t>(labels.size(), kNoPatch)}, limits, made);
   for (float& weight : made.front().samples.weights) weight = kCorrectionWeight;
   folds.push_back(std::move(made.front()));
   return count;

@@ -466,19 +466,5 @@
     if (state && working === 0 && state.revision < wanted) load();
   };
   const lost = () => nav.putText(byId("status"), "the server cannot be reached");
-  let following = null;
-  /** A hidden page polls rarely, because a browser has few connections to one server. */
-  const follow = () => {
-    if (following) following.abort();
-    following = new AbortController();
-    const {signal} = following;
-    if (!document.hidden) {
-      server.follow(take, lost, signal);
-      return;
-    }
-    const timer = setInterval(() => server.json("/api/now").then(take, lost), 1500);
-    signal.addEventListener("abort", () => clearInterval(timer));
-  };
-  document.addEventListener("visibilitychange", follow);
-  load().then(follow);
+  load().then(() => nav.followWhileShown(server, take, lost));
 })((globalThis.urbanNav ??= {}));

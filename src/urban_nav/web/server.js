@@ -43,14 +43,17 @@
       const answer = await this.request(path);
       return answer.status === 204 ? null : answer.blob();
     }
-    async edit(words) {
+    async post(path, words) {
       return (
-        await this.request("/api/edit", {
+        await this.request(path, {
           method: "POST",
           headers: {"Content-Type": "application/json"},
           body: JSON.stringify(words),
         })
       ).json();
+    }
+    edit(words) {
+      return this.post("/api/edit", words);
     }
 
     /** Calls `take` with each state that the server reports, and `lost` when it cannot be reached; ends with the signal. */
@@ -72,5 +75,24 @@
         await new Promise((resolve) => setTimeout(resolve, 2000));
       }
     }
+  };
+
+  /** Follows the server as Server.follow() while the page is shown. A hidden page polls rarely, because a browser has few
+   * connections to one server. */
+  nav.followWhileShown = (server, take, lost) => {
+    let following = null;
+    const follow = () => {
+      if (following) following.abort();
+      following = new AbortController();
+      const {signal} = following;
+      if (!document.hidden) {
+        server.follow(take, lost, signal);
+        return;
+      }
+      const timer = setInterval(() => server.json("/api/now").then(take, lost), 1500);
+      signal.addEventListener("abort", () => clearInterval(timer));
+    };
+    document.addEventListener("visibilitychange", follow);
+    follow();
   };
 })((globalThis.urbanNav ??= {}));

@@ -28,12 +28,10 @@ SensorCorrections toCorrections(const SensorCorrectionParameters& parameters) {
   corrections.imu_delay = toNs(parameters.imu_delay);
   corrections.wheels_delay = toNs(parameters.wheels_delay);
   corrections.gps_delay = toNs(parameters.gps_delay);
-  corrections.lasers = {{{parameters.laser_left_range_scale, parameters.laser_left_angle_scale,
-                          toNs(parameters.laser_left_delay), parameters.laser_left_time_scale},
-                         {parameters.laser_right_range_scale, parameters.laser_right_angle_scale,
-                          toNs(parameters.laser_right_delay), parameters.laser_right_time_scale},
-                         {parameters.scan_range_scale, parameters.scan_angle_scale, toNs(parameters.scan_delay),
-                          parameters.scan_time_scale}}};
+  const auto members = detail::laserMembers<SensorCorrectionParameters>();
+  for (std::size_t i = 0; i < members.size(); ++i)
+    corrections.lasers[i] = {parameters.*members[i].range_scale, parameters.*members[i].angle_scale,
+                             toNs(parameters.*members[i].delay), parameters.*members[i].time_scale};
   return corrections;
 }
 

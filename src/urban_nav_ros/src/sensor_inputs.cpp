@@ -15,7 +15,7 @@ namespace urban_nav_ros {
 namespace {
 
 constexpr std::array<const char*, 3> kLaserTopics = {{topics::kLaserLeft, topics::kLaserRight, topics::kScan}};
-constexpr std::array<const char*, 3> kLaserNames = {{"laser_left", "laser_right", "scan"}};
+constexpr std::array<const char*, 3> kLaserNames = {{"laser_left", "laser_right", "laser0"}};
 
 /// Returns the index of the laser of a topic, as in SensorCorrections; nullopt for other topics.
 std::optional<std::size_t> findLaser(const std::string& topic) {

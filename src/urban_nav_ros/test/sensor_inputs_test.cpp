@@ -95,7 +95,7 @@ TEST(SensorInputs, DelaysAndScalesApplyToTheTopicOfTheirSensorAlone) {
                                             {"wheels_scale", "-1"},
                                             {"gps_delay", "18000"},
                                             {"laser_right_delay", "3000"},
-                                            {"scan_delay", "4000"}});
+                                            {"laser0_delay", "4000"}});
   const auto imu = boost::make_shared<sensor_msgs::Imu>();
   imu->header.stamp = toRosTime(kStamp);
   imu->angular_velocity.z = 0.2;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scene_labeler/labelling/labeler.hpp"
 #include "scene_labeler/model/label_model.hpp"
 #include "scene_labeler/training/training_data.hpp"
 
@@ -29,6 +30,12 @@ struct CorrectionCount {
 /// for a model that does not distinguish them. Requires a fold name that is not in `folds`.
 CorrectionCount addCorrections(const LabelModel& model, const Scene& scene, std::vector<SceneClass> labels,
                                int superpixel_size, const std::string& fold, std::vector<TrainingFold>& folds);
+
+/// Adds corrections of a scene whose features (measureSceneFeatures()) and answers (labelScene() of the model) are
+/// known.
+CorrectionCount addCorrections(const LabelModel& model, const FeatureTable& table, const SceneLabels& answer,
+                               std::vector<SceneClass> labels, const std::string& fold,
+                               std::vector<TrainingFold>& folds);
 
 /// Return of a scene and the class that a user assigned to its superpixel.
 struct PatchCorrection {

@@ -22,6 +22,16 @@
 
 namespace urban_nav {
 
+namespace {
+
+Command labelsWithTeaching() {
+  Command labels = labelsCommand(runOdometry);
+  labels.actions.push_back(labelsTeachAction());
+  return labels;
+}
+
+}  // namespace
+
 std::vector<Command> allCommands() {
   return {mapCommand(makeStages, recordAllResults),
           convertCommand(),
@@ -36,7 +46,7 @@ std::vector<Command> allCommands() {
           disparityCommand(),
           doctorCommand(),
           placesCommand(),
-          labelsCommand(runOdometry),
+          labelsWithTeaching(),
           simulateCommand(),
           deviceCommand(),
           whyCommand(),

@@ -77,11 +77,23 @@ void comparePosesByMinute(const SessionClock& clock, const SessionId& id, const 
 
 /// Returns the stage that writes each table of a store.
 const std::map<std::string, std::string>& stagesOfTables() {
-  static const std::map<std::string, std::string> stages = {
-      {"input", "input"},        {"node", "vo"},           {"extrinsic", "input"},       {"keyframe", "keyframes"},
-      {"panorama", "places"},    {"place", "places"},      {"keyframe_place", "places"}, {"ground_view", "stereo"},
-      {"near_points", "stereo"}, {"depth_view", "stereo"}, {"scan", "lasers"},           {"mounted_lidar", "lasers"},
-      {"lidar_sweep", "lasers"}, {"fix", "graph"},         {"chunk", "lasers"},          {"chunk_cells", "lasers"}};
+  static const std::map<std::string, std::string> stages = {{"input", "input"},
+                                                            {"node", "vo"},
+                                                            {"extrinsic", "input"},
+                                                            {"keyframe", "keyframes"},
+                                                            {"panorama", "places"},
+                                                            {"place", "places"},
+                                                            {"keyframe_place", "places"},
+                                                            {"ground_view", "stereo"},
+                                                            {"near_points", "stereo"},
+                                                            {"depth_view", "stereo"},
+                                                            {"scan", "lasers"},
+                                                            {"mounted_lidar", "lasers"},
+                                                            {"lidar_sweep", "lasers"},
+                                                            {"depth_image", "lasers"},
+                                                            {"fix", "graph"},
+                                                            {"chunk", "lasers"},
+                                                            {"chunk_cells", "lasers"}};
   return stages;
 }
 

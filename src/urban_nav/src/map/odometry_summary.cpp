@@ -48,11 +48,17 @@ const OdometryFusion* bestFusion(const MapContext& context) {
 
 }  // namespace
 
+std::vector<StepSource> stepSources(const SessionOdometry& run) {
+  if (run.fusion) return run.fusion->sources;
+  const StepSource measured = run.source == OdometrySource::Laser ? StepSource::Laser : StepSource::Stereo;
+  std::vector<StepSource> sources;
+  for (std::size_t i = 1; i < run.settled.size(); ++i)
+    sources.push_back(run.settled[i].status.health == urban_nav_core::Health::Lost ? StepSource::None : measured);
+  return sources;
+}
+
 void addSteps(const SessionOdometry& run, StepCounts& counts) {
-  for (std::size_t i = 1; i < run.settled.size(); ++i) {
-    StepSource source = run.source == OdometrySource::Laser ? StepSource::Laser : StepSource::Stereo;
-    if (run.fusion) source = run.fusion->sources[i - 1];
-    else if (run.settled[i].status.health == urban_nav_core::Health::Lost) source = StepSource::None;
+  for (const StepSource source : stepSources(run)) {
     switch (source) {
       case StepSource::None: ++counts.none; break;
       case StepSource::Stereo: ++counts.stereo; break;

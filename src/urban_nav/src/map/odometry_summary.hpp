@@ -3,11 +3,15 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "base/json.hpp"
 #include "map/context.hpp"
 
 namespace urban_nav {
+
+/// Returns the source of the step to each smoothed frame but the first.
+std::vector<urban_nav_core::StepSource> stepSources(const SessionOdometry& run);
 
 /// Number of odometry steps by sensor.
 struct StepCounts {

@@ -35,6 +35,9 @@ class SessionPass {
   /// their references, each before the first pair that was read after it; its reference may be later or earlier than
   /// the stamp of this pair. In a session without images there is no other input.
   virtual void process(const urban_nav_input::SweepInput&) {}
+  /// Observes an image of a depth camera, if a stage of the run uses them (Stage::Description). Images come in the
+  /// order of the reader, each before the first pair or sweep that was read after it.
+  virtual void process(const urban_nav_input::DepthInput&) {}
   /// Writes new results to the store. Called before each commit, about once a second.
   virtual void flush() {}
   /// Returns the state at the end of a bag, from which a new object continues bit-exactly. All previous results

@@ -29,8 +29,10 @@ SessionReader::SessionReader(MapContext& context, const StageList& stages, RunCh
 std::unique_ptr<urban_nav_input::Source> SessionReader::openSource(const urban_nav_input::BagEnd* after) {
   const MapOptions& options = context_.options;
   urban_nav_input::SourceOptions source_options = options.source;
-  source_options.with_sweeps =
-      std::any_of(stages_.begin(), stages_.end(), [](const Stage* stage) { return stage->describe().uses_sweeps; });
+  for (const Stage* stage : stages_) {
+    source_options.with_sweeps = source_options.with_sweeps || stage->describe().uses_sweeps;
+    source_options.with_depth = source_options.with_depth || stage->describe().uses_depth;
+  }
   source_options.with_planar_sweeps = options.odometry == OdometryOption::Laser;
   const urban_nav_input::InputSession& input = context_.sessions[session_].input;
   std::unique_ptr<urban_nav_input::Source> source =
@@ -63,7 +65,7 @@ void SessionReader::openPasses(const BagCheckpoint* checkpoint) {
 void SessionReader::openResumed() {
   const std::optional<RunCheckpoint::ResumePoint>& point = checkpoint_.resumePoint(session_);
   if (!point) return;
-  const urban_nav_input::BagEnd after{point->bags, point->checkpoint.receipt, point->checkpoint.reader, {}, {}, {}};
+  const urban_nav_input::BagEnd after{point->bags, point->checkpoint.receipt, point->checkpoint.reader, {}, {}, {}, {}};
   try {
     source_ = openSource(&after);
     openPasses(&point->checkpoint);
@@ -107,19 +109,16 @@ void SessionReader::flush() {
   for (const auto& [key, pass] : passes_) pass->flush();
 }
 
-void SessionReader::processPanoramas(const std::vector<urban_nav_ros::Panorama>& panoramas) {
-  for (const urban_nav_ros::Panorama& panorama : panoramas)
-    for (const auto& [key, pass] : passes_) pass->process(panorama);
-}
-
-void SessionReader::processSweeps(const std::vector<urban_nav_input::SweepInput>& sweeps) {
-  for (const urban_nav_input::SweepInput& sweep : sweeps)
-    for (const auto& [key, pass] : passes_) pass->process(sweep);
+template <typename Input>
+void SessionReader::processAll(const std::vector<Input>& inputs) {
+  for (const Input& input : inputs)
+    for (const auto& [key, pass] : passes_) pass->process(input);
 }
 
 void SessionReader::saveBagEnd(const urban_nav_input::BagEnd& end) {
-  processPanoramas(end.panoramas);
-  processSweeps(end.sweeps);
+  processAll(end.depths);
+  processAll(end.panoramas);
+  processAll(end.sweeps);
   flush();
   std::vector<BagCheckpoint::StageState> states;
   for (const auto& [key, pass] : passes_) states.emplace_back(key, pass->checkpoint());
@@ -137,8 +136,9 @@ void SessionReader::read(const ProgressCallback& progress) {
   while (std::optional<urban_nav_input::SourceItem> input = source_->next()) {
     if (input->bag_end) saveBagEnd(*input->bag_end);
     checkpoint_.writeScans(input->scans);
-    processPanoramas(input->panoramas);
-    processSweeps(input->sweeps);
+    processAll(input->depths);
+    processAll(input->panoramas);
+    processAll(input->sweeps);
     if (input->has_pair) {
       images.add(input->assembled);
       PassItem item{*input};
@@ -154,8 +154,9 @@ void SessionReader::read(const ProgressCallback& progress) {
   }
   if (const auto end = source_->bagEnd()) saveBagEnd(*end);
   checkpoint_.writeScans(source_->scans());
-  processPanoramas(source_->panoramas());
-  processSweeps(source_->sweeps());
+  processAll(source_->depths());
+  processAll(source_->panoramas());
+  processAll(source_->sweeps());
   std::vector<std::string> faults = source_->closingFaults();
   for (std::string& fault : calibrationFaults()) faults.push_back(std::move(fault));
   std::vector<urban_nav_input::Finding> findings = source_->sensorFindings();

@@ -40,8 +40,8 @@ class SessionReader {
   void openPasses(const BagCheckpoint* checkpoint);
   bool restoreFinished();
   void flush();
-  void processPanoramas(const std::vector<urban_nav_ros::Panorama>& panoramas);
-  void processSweeps(const std::vector<urban_nav_input::SweepInput>& sweeps);
+  template <typename Input>
+  void processAll(const std::vector<Input>& inputs);
   void saveBagEnd(const urban_nav_input::BagEnd& end);
 
   MapContext& context_;

@@ -21,7 +21,6 @@ class PageRoutes {
   HttpAnswer get(const HttpRequest& request) const;
   HttpAnswer tile(const HttpRequest& request) const;
   HttpAnswer post(const HttpRequest& request) const;
-  HttpAnswer follow() const;
 
   MapSource& source_;
   PageEvents& events_;

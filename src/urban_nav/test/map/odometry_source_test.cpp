@@ -30,7 +30,7 @@ TEST(OdometrySource, AutoTakesWhatThereIs) {
 TEST(OdometrySource, AHorizontalLaserIsASourceOfItsOwn) {
   MapOptions options;
   urban_nav_input::SourceInfo info = makeInfo(false, false);
-  info.planar_role = "scan";
+  info.planar_role = "laser0";
   EXPECT_EQ(chooseOdometry(options, info), OdometrySource::Laser);
   options.odometry = OdometryOption::Laser;
   EXPECT_EQ(chooseOdometry(options, info), OdometrySource::Laser);

@@ -3,7 +3,7 @@
 "use strict";
 const assert = require("node:assert"),
   test = require("node:test");
-for (const name of ["camera", "text", "server", "lists", "explanation", "plan", "points", "tiles", "tile_view", "report_map", "page"])
+for (const name of ["camera", "text", "server", "lists", "explanation", "plan", "points", "tiles", "tile_view", "report_map", "page", "labelled", "marks", "teach"])
   require(`../../web/${name}.js`);
 const nav = globalThis.urbanNav;
 
@@ -554,4 +554,86 @@ test("trust colours a point by the tests of its time", () => {
   const painted = nav.colourPoints(points, "trust", [], [0, 1], (session, pose) => colour(session, pose === 0 ? 1 : 5));
   assert.deepStrictEqual([...painted.slice(0, 3)], colour(0, 1));
   assert.deepStrictEqual([...painted.slice(4, 7)], colour(0, 5));
+});
+
+// A labelled cloud of five points: two units of two, and a point without one.
+const labelledBytes = (hasImage) => {
+  const places = [0, 0, 0, 0.2, 0, 0, 3, 0, 1, 3.2, 0, 1, NaN, 0, 0],
+    units = [0, 0, 1, 1, 0xffffffff],
+    pixels = [10, 10, NaN, NaN, 50, 20, 52, 20, NaN, NaN],
+    bytes = new ArrayBuffer(5 * (hasImage ? 24 : 16));
+  new Float32Array(bytes, 0, 15).set(places);
+  new Uint32Array(bytes, 60, 5).set(units);
+  if (hasImage) new Float32Array(bytes, 80, 10).set(pixels);
+  return bytes;
+};
+const LABEL_CLASSES = [
+  {number: 2, name: "paved", colour: "#bebebe"},
+  {number: 7, name: "vehicle", colour: "#2864e6"},
+];
+
+test("a labelled cloud is read with its units, and a short one is refused", () => {
+  const cloud = nav.readCloud(labelledBytes(false), 5, false);
+  assert.strictEqual(cloud.pixels, null);
+  close([...cloud.places.subarray(6, 9)], [3, 0, 1], 1e-6);
+  assert.deepStrictEqual([...cloud.units], [0, 0, 1, 1, 0xffffffff]);
+  assert.throws(() => nav.readCloud(labelledBytes(false), 4, false));
+  assert.throws(() => nav.readCloud(labelledBytes(false), 5, true));
+  const box = nav.cloudBox(cloud);
+  close(box.low, [0, 0, 0], 1e-6);
+  close(box.high, [3.2, 0, 1], 1e-6);
+  assert.strictEqual(nav.cloudBox({count: 1, places: new Float32Array([NaN, 0, 0])}), null);
+});
+
+test("a brush takes whole units", () => {
+  const cloud = nav.readCloud(labelledBytes(false), 5, false),
+    groups = nav.groupUnits(cloud, 2);
+  close([...groups.centres], [0.1, 0, 0, 3.1, 0, 1], 1e-6);
+  assert.deepStrictEqual(nav.pointsNear(cloud, groups, 3, 0), [2, 3]);
+  assert.deepStrictEqual(nav.pointsNear(cloud, groups, 0, 10), [0, 1, 2, 3]);
+  assert.deepStrictEqual(nav.pointsNear(cloud, groups, 4, 10), [], "a point without a unit");
+});
+
+test("a click on the image takes the nearest shown point", () => {
+  const cloud = nav.readCloud(labelledBytes(true), 5, true);
+  assert.strictEqual(nav.pickPixel(cloud, 51.5, 21, 10), 3);
+  assert.strictEqual(nav.pickPixel(cloud, 30, 30, 10), -1);
+});
+
+test("answers are coloured by their class, unsure ones in one grey", () => {
+  const cloud = nav.readCloud(labelledBytes(false), 5, false),
+    answers = nav.readAnswers(new Uint8Array([2, 255, 0, 7, 128, 1, 7, 255, 2, 255, 0, 0, 2, 90, 1]).buffer, 5),
+    colours = nav.labelColours(cloud, answers, LABEL_CLASSES, [0, 1]);
+  assert.throws(() => nav.readAnswers(new ArrayBuffer(14), 5));
+  assert.deepStrictEqual(colours.answers(0), [0xbe, 0xbe, 0xbe]);
+  assert.deepStrictEqual(colours.answers(1), colours.answers(4), "both unsure");
+  assert.notDeepStrictEqual(colours.all(1), colours.all(4));
+  assert.deepStrictEqual(colours.corrections(2), [0x28, 0x64, 0xe6]);
+  assert.deepStrictEqual(colours.corrections(0), colours.corrections(1), "not corrected");
+  assert.deepStrictEqual(nav.answersOf([0, 1, 2, 3], answers, LABEL_CLASSES), [
+    ["vehicle", 0.5],
+    ["paved", 0.25],
+    ["none", 0.25],
+  ]);
+  close([answers.probability(1)], [128 / 255]);
+});
+
+test("suggestions, corrections and counts are told in words", () => {
+  assert.strictEqual(
+    nav.suggestionText({class: "wall", second: "vehicle", probability: 0.412, units: 312, area_m2: 410.2}),
+    "wall 41 %, or vehicle: 312 like it, 410 m\u00b2",
+  );
+  assert.strictEqual(
+    nav.suggestionText({class: "wall", second: "none", probability: 1, units: 1, area_m2: 0.16}),
+    "wall 100 %: 1 like it, 0.2 m\u00b2",
+  );
+  assert.strictEqual(
+    nav.correctionText({number: 3, class: "paved", points: 1, place: [1.26, -2, 0]}, [1000, 0, 0]),
+    "3  paved, 1 point at 1001.3, -2.0, 0.0",
+  );
+  assert.strictEqual(nav.countsText({points: 5, answered: 0, unsure: 0, corrected: 0}), "5 points without an answer");
+  assert.strictEqual(
+    nav.countsText({points: 200, answered: 100, unsure: 25, corrected: 4}),
+    "200 points, 75 % sure, 4 corrected",
+  );
 });

@@ -23,7 +23,7 @@ struct RoleNames {
   const char* word;
   const char* topic;  // of docs/architecture.md; null: none
 };
-constexpr std::array<RoleNames, 25> kRoles = {{{Role::Left, "left", topics::kLeftImage},
+constexpr std::array<RoleNames, 36> kRoles = {{{Role::Left, "left", topics::kLeftImage},
                                                {Role::Right, "right", topics::kRightImage},
                                                {Role::LeftInfo, "left_info", topics::kLeftInfo},
                                                {Role::RightInfo, "right_info", topics::kRightInfo},
@@ -33,11 +33,22 @@ constexpr std::array<RoleNames, 25> kRoles = {{{Role::Left, "left", topics::kLef
                                                {Role::LaserRight, "laser_right", topics::kLaserRight},
                                                {Role::Truth, "truth", topics::kTruthPose},
                                                {Role::Gps, "gps", topics::kGpsFix},
-                                               {Role::Scan, "scan", topics::kScan},
+                                               {Role::Laser0, "laser0", topics::kScan},
+                                               {Role::Laser1, "laser1", nullptr},
+                                               {Role::Laser2, "laser2", nullptr},
+                                               {Role::Laser3, "laser3", nullptr},
                                                {Role::Points0, "points0", topics::kPoints},
                                                {Role::Points1, "points1", nullptr},
                                                {Role::Points2, "points2", nullptr},
                                                {Role::Points3, "points3", nullptr},
+                                               {Role::Depth0, "depth0", nullptr},
+                                               {Role::Depth1, "depth1", nullptr},
+                                               {Role::Depth2, "depth2", nullptr},
+                                               {Role::Depth3, "depth3", nullptr},
+                                               {Role::Depth0Info, "depth0_info", nullptr},
+                                               {Role::Depth1Info, "depth1_info", nullptr},
+                                               {Role::Depth2Info, "depth2_info", nullptr},
+                                               {Role::Depth3Info, "depth3_info", nullptr},
                                                {Role::Panorama0, "panorama0", topics::kPanoramaImages[0]},
                                                {Role::Panorama1, "panorama1", topics::kPanoramaImages[1]},
                                                {Role::Panorama2, "panorama2", topics::kPanoramaImages[2]},
@@ -271,13 +282,57 @@ void guessPoints(const std::map<std::string, std::string>& available, BagTopics&
   }
 }
 
+/// Assigns further topics of scans to the roles laser0, laser1, ...: "scan" first.
+void guessLasers(const std::map<std::string, std::string>& available, BagTopics& topics) {
+  std::vector<ChosenTopic> scans;
+  for (const auto& [topic, type] : available)
+    if (fits(Role::Laser0, type) && !isDerived(topic) && !isTaken(topics, topic)) scans.push_back({topic, type});
+  std::stable_partition(scans.begin(), scans.end(),
+                        [](const ChosenTopic& scan) { return bare(scan.name) == urban_nav_ros::topics::kScan; });
+  std::size_t laser = 0;
+  for (ChosenTopic& scan : scans) {
+    while (laser < kFurtherLasers && topics.find(laserRole(laser))) ++laser;
+    if (laser == kFurtherLasers) return;
+    topics.chosen[laserRole(laser)] = std::move(scan);
+  }
+}
+
+/// Returns the part of a topic's name before "depth" or "aligned_depth".
+std::string depthNamespace(const std::string& topic) {
+  return topic.substr(0, std::min(topic.find("depth"), topic.find("aligned_depth")));
+}
+
+/// Assigns one topic of depth images of each namespace that has any, and their camera_info.
+void guessDepth(const std::map<std::string, std::string>& available, BagTopics& topics) {
+  constexpr int kAligned = 2, kCompressed = 1;              // penalties
+  std::map<std::string, std::pair<int, ChosenTopic>> best;  // by namespace
+  for (const auto& [topic, type] : available) {
+    if (!isImageType(type) || !contains(topic, "depth") || isTaken(topics, topic) || contains(topic, "theora") ||
+        contains(topic, "disparity"))
+      continue;
+    const bool is_compressed = type == "sensor_msgs/CompressedImage";
+    if (is_compressed && !contains(topic, "compressedDepth")) continue;  // pictures of depths, by JPEG
+    const int penalty = (contains(topic, "aligned") ? kAligned : 0) + (is_compressed ? kCompressed : 0);
+    const auto found = best.emplace(depthNamespace(topic), std::make_pair(penalty, ChosenTopic{topic, type}));
+    if (penalty < found.first->second.first) found.first->second = {penalty, {topic, type}};
+  }
+  std::size_t camera = 0;
+  for (auto& [name, chosen] : best) {
+    while (camera < kDepthCameras && topics.find(depthRole(camera))) ++camera;
+    if (camera == kDepthCameras) break;
+    topics.chosen[depthRole(camera)] = std::move(chosen.second);
+  }
+  for (camera = 0; camera < kDepthCameras; ++camera)
+    guessInfo(available, depthRole(camera), depthInfoRole(camera), topics);
+}
+
 /// Adds one line per role; panoramas share one.
 void noteTopics(const std::map<Role, ChosenTopic>& wished, const std::map<Role, std::string>& presets,
                 BagTopics& topics) {
   const std::vector<std::size_t> panorama = topics.panorama();
   for (const auto& [role, topic] : topics.chosen) {
     const auto preset = presets.find(role);
-    const std::string guessed = preset != presets.end() ? " (preset " + preset->second + ")"
+    const std::string guessed = preset != presets.end()   ? " (preset " + preset->second + ")"
                                 : wished.count(role) != 0 ? ""
                                                           : " (guessed)";
     if (role < Role::Panorama0) topics.notes.push_back(std::string(toString(role)) + ": " + topic.name + guessed);
@@ -306,6 +361,10 @@ bool fits(Role role, const std::string& type) {
   switch (role) {
     case Role::Left:
     case Role::Right:
+    case Role::Depth0:
+    case Role::Depth1:
+    case Role::Depth2:
+    case Role::Depth3:
     case Role::Panorama0:
     case Role::Panorama1:
     case Role::Panorama2:
@@ -313,6 +372,10 @@ bool fits(Role role, const std::string& type) {
     case Role::Panorama4: return isImageType(type);
     case Role::LeftInfo:
     case Role::RightInfo:
+    case Role::Depth0Info:
+    case Role::Depth1Info:
+    case Role::Depth2Info:
+    case Role::Depth3Info:
     case Role::Panorama0Info:
     case Role::Panorama1Info:
     case Role::Panorama2Info:
@@ -322,7 +385,10 @@ bool fits(Role role, const std::string& type) {
     case Role::Wheels: return type == "nav_msgs/Odometry";
     case Role::LaserLeft:
     case Role::LaserRight:
-    case Role::Scan: return type == "sensor_msgs/LaserScan";
+    case Role::Laser0:
+    case Role::Laser1:
+    case Role::Laser2:
+    case Role::Laser3: return type == "sensor_msgs/LaserScan";
     case Role::Truth: return type == "geometry_msgs/PoseStamped";
     case Role::Gps: return type == "sensor_msgs/NavSatFix";
     case Role::Points0:
@@ -348,6 +414,14 @@ Role panoramaRole(std::size_t camera) { return static_cast<Role>(static_cast<std
 
 Role panoramaInfoRole(std::size_t camera) {
   return static_cast<Role>(static_cast<std::size_t>(Role::Panorama0Info) + camera);
+}
+
+Role laserRole(std::size_t laser) { return static_cast<Role>(static_cast<std::size_t>(Role::Laser0) + laser); }
+
+Role depthRole(std::size_t camera) { return static_cast<Role>(static_cast<std::size_t>(Role::Depth0) + camera); }
+
+Role depthInfoRole(std::size_t camera) {
+  return static_cast<Role>(static_cast<std::size_t>(Role::Depth0Info) + camera);
 }
 
 Role pointsRole(std::size_t lidar) { return static_cast<Role>(static_cast<std::size_t>(Role::Points0) + lidar); }
@@ -384,26 +458,13 @@ BagTopics chooseTopics(const std::map<std::string, std::string>& available, cons
   guessOther(available, kRoles[7], {"right"}, topics);
   guessOther(available, kRoles[8], {"ground_truth", "groundtruth"}, topics);
   guessOther(available, kRoles[9], {"gps", "fix", "gnss"}, topics);
+  guessLasers(available, topics);
+  guessDepth(others, topics);
   guessPoints(available, topics);
   noteTopics(wished, presets, topics);
   if (topics.chosen.size() > wished.size())
     topics.notes.push_back("guessed from types and names; override with --topic ROLE:=NAME");
   return topics;
-}
-
-void guessScan(const std::map<std::string, std::string>& available, BagTopics& topics) {
-  if (topics.find(Role::Scan)) return;
-  const auto isCandidate = [&](const auto& each) {
-    return fits(Role::Scan, each.second) && !isDerived(each.first) && !isTaken(topics, each.first);
-  };
-  auto found = std::find_if(available.begin(), available.end(), [&](const auto& each) {
-    return isCandidate(each) && bare(each.first) == urban_nav_ros::topics::kScan;
-  });
-  if (found == available.end()) found = std::find_if(available.begin(), available.end(), isCandidate);
-  if (found == available.end()) return;
-  topics.chosen[Role::Scan] = {found->first, found->second};
-  topics.notes.push_back(std::string(toString(Role::Scan)) + ": " + found->first +
-                         " (guessed; override with --topic ROLE:=NAME)");
 }
 
 bool isImageType(const std::string& type) {

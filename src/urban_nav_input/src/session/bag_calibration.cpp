@@ -122,4 +122,10 @@ urban_nav_ros::StereoCalibration makeCalibration(Recording& recording, const Ste
   return {infos.left, infos.right, choice.isRectified(named_as_rectified), infos.where};
 }
 
+void noteDistortionModel(const urban_nav_core::CameraInfo& info, std::vector<std::string>& notes) {
+  if (!info.distortion_model.empty() || !urban_nav_core::needsRectification(info)) return;
+  notes.push_back("distortion_model is empty: coefficients are read as those of " +
+                  std::string(info.D.size() > 5 ? "rational_polynomial" : "plumb_bob"));
+}
+
 }  // namespace urban_nav_input

@@ -31,4 +31,7 @@ urban_nav_ros::StereoCalibration makeCalibration(Recording& recording, const Ste
                                                  const ReceiptRange& part, bool named_as_rectified,
                                                  const StereoInfos& infos, std::vector<std::string>& notes);
 
+/// Adds a note if a camera has coefficients of distortion without the name of their model.
+void noteDistortionModel(const urban_nav_core::CameraInfo& info, std::vector<std::string>& notes);
+
 }  // namespace urban_nav_input

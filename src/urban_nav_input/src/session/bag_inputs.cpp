@@ -8,11 +8,21 @@
 
 namespace urban_nav_input {
 
+namespace {
+
+/// Returns the image topics of a recording with the options to choose them.
 std::string listImageTopics(Recording& recording) {
   std::string text;
   for (const auto& [topic, type] : recording.topicTypes())
     if (isImageType(type)) text += (text.empty() ? "" : ", ") + topic;
   return text.empty() ? "it has no images" : text + " (--topic left:=NAME --topic right:=NAME)";
+}
+
+}  // namespace
+
+std::string describeNoImages(Recording& recording, const std::vector<Finding>& clouds) {
+  return "has no stereo pair of image topics: " + listImageTopics(recording) +
+         (clouds.empty() ? "" : "; " + clouds.front().text + ", and have no 3D pose");
 }
 
 std::vector<std::string> imageTopics(const BagTopics& topics) {

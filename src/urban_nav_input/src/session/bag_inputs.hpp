@@ -18,8 +18,9 @@ namespace urban_nav_input {
 std::vector<InputStream> describeInputs(Recording& recording, const BagTopics& topics,
                                         const std::vector<InputStream>& lidars);
 
-/// Returns the image topics of a recording with the options to choose them, for an error message.
-std::string listImageTopics(Recording& recording);
+/// Returns the fault of a recording without a stereo pair, with its image topics and the options to choose them.
+/// `clouds`: findings on planar lasers that publish clouds.
+std::string describeNoImages(Recording& recording, const std::vector<Finding>& clouds);
 
 /// Returns the topics of the stereo images. Requires both.
 std::vector<std::string> imageTopics(const BagTopics& topics);

@@ -19,7 +19,8 @@ using urban_nav_core::Vector3d;
 
 namespace {
 
-constexpr std::array<Role, 3> kLaserRoles = {{Role::LaserLeft, Role::LaserRight, Role::Scan}};  // as sensors.lasers
+constexpr std::array<Role, 6> kLaserRoles = {
+    {Role::LaserLeft, Role::LaserRight, Role::Laser0, Role::Laser1, Role::Laser2, Role::Laser3}};  // as sensors.lasers
 
 /// Returns the index of the role in kLaserRoles.
 std::size_t laserIndex(const std::string& role) {
@@ -99,14 +100,12 @@ std::vector<SpecificForce> BagSensors::forces() const {
 
 std::optional<double> BagSensors::findDelay(const std::string& role) const {
   const urban_nav_ros::SensorCorrections& sensors = options_.sensors;
-  const std::array<std::pair<Role, StampNs>, 6> delays = {{{Role::Imu, sensors.imu_delay},
-                                                           {Role::Wheels, sensors.wheels_delay},
-                                                           {Role::Gps, sensors.gps_delay},
-                                                           {Role::LaserLeft, sensors.lasers[0].delay},
-                                                           {Role::LaserRight, sensors.lasers[1].delay},
-                                                           {Role::Scan, sensors.lasers[2].delay}}};
+  const std::array<std::pair<Role, StampNs>, 3> delays = {
+      {{Role::Imu, sensors.imu_delay}, {Role::Wheels, sensors.wheels_delay}, {Role::Gps, sensors.gps_delay}}};
   for (const auto& [of, delay] : delays)
     if (role == toString(of)) return 1e-6 * static_cast<double>(delay);
+  for (std::size_t i = 0; i < kLaserRoles.size(); ++i)
+    if (role == toString(kLaserRoles[i])) return 1e-6 * static_cast<double>(sensors.lasers[i].delay);
   for (std::size_t i = 0; i < options_.points.delays.size(); ++i)
     if (role == toString(pointsRole(i))) return options_.points.delays[i];
   return std::nullopt;

@@ -8,6 +8,7 @@
 #include "recording/unused_topics.hpp"
 #include "session/bag_calibration.hpp"
 #include "session/bag_cameras.hpp"
+#include "session/bag_depth.hpp"
 #include "session/bag_images.hpp"
 #include "session/bag_inputs.hpp"
 #include "session/bag_sensors.hpp"
@@ -47,7 +48,7 @@ constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns, of message
 constexpr urban_nav_core::StampNs kLongestWait =
     1'000'000'000;  // ns, for a topic whose stamps are earlier than those of the images
 constexpr const char* kBagStateName = "reader of bags";
-constexpr std::uint32_t kBagStateVersion = 12;
+constexpr std::uint32_t kBagStateVersion = 13;
 constexpr urban_nav_core::StampNs kReceiptTolerance =
     25'000'000;                         // ns: images of a pair are received one after another
 constexpr std::size_t kMostSweeps = 4;  // waiting for a pair
@@ -61,15 +62,9 @@ class BagSource : public Source {
     topics_ = chooseTopics(recording_.topicTypes(), options.topics);
     planar_clouds_ = PlanarClouds(recording_, part_, options.topics, topics_);
     info_.has_images = topics_.find(Role::Left) && topics_.find(Role::Right);
-    if (mayUsePlanarLaser()) guessScan(recording_.topicTypes(), topics_);
     const bool has_sweeps = options.with_sweeps && topics_.find(Role::Points0);
     if (!info_.has_images && !has_sweeps && !(mayUsePlanarLaser() && hasLaser(topics_)))
-      throw DataError(name_,
-                      "has no stereo pair of image topics: " + listImageTopics(recording_) +
-                          (planar_clouds_.findings().empty()
-                               ? ""
-                               : "; " + planar_clouds_.findings().front().text + ", and have no 3D pose"),
-                      "");
+      throw DataError(name_, describeNoImages(recording_, planar_clouds_.findings()), "");
     motion_ = chooseMotion(topics_, options.motion_input, name_);
     info_.name = name_ + (paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " more" : "");
     info_.kind = "bag";
@@ -99,6 +94,7 @@ class BagSource : public Source {
 
   std::vector<LaserInput> scans() const override { return scans_; }
   std::vector<SweepInput> sweeps() const override { return sweeps_; }
+  std::vector<DepthInput> depths() const override { return depth_.pending(); }
   std::vector<urban_nav_ros::Panorama> panoramas() const override { return panoramas_; }
   std::vector<urban_nav_core::SpecificForce> forces() const override { return sensors_.forces(); }
   std::vector<Finding> sensorFindings() const override {
@@ -131,6 +127,7 @@ class BagSource : public Source {
     item.scans = std::exchange(scans_, {});
     item.panoramas = std::exchange(panoramas_, {});
     item.sweeps = std::exchange(sweeps_, {});
+    item.depths = depth_.take();
     return item;
   }
 
@@ -153,9 +150,7 @@ class BagSource : public Source {
       if (!infos.frame.empty()) camera_frame_ = infos.frame;
     }
     scaleBaseline(options_.baseline_scale, left_info, right_info);
-    if (left_info.distortion_model.empty() && urban_nav_core::needsRectification(left_info))
-      info_.notes.push_back("distortion_model is empty: coefficients are read as those of " +
-                            std::string(left_info.D.size() > 5 ? "rational_polynomial" : "plumb_bob"));
+    noteDistortionModel(left_info, info_.notes);
     const std::string where = given
                                   ? options_.calibration
                                   : topics_.find(Role::LeftInfo)->name + " and " + topics_.find(Role::RightInfo)->name;
@@ -204,12 +199,16 @@ class BagSource : public Source {
     placeLasers(transforms);
     panorama_ = BagPanorama(recording_, topics_, transforms);
     info_.panorama = panorama_.cameras();
+    if (options_.with_depth) depth_ = BagDepth(recording_, topics_, transforms);
+    info_.depth_cameras = depth_.cameras();
+    info_.notes.insert(info_.notes.end(), depth_.notes().begin(), depth_.notes().end());
   }
 
   void placeLasers(const urban_nav_ros::StaticTransforms& transforms) {
     const bool is_alone = mayUsePlanarLaser() && !info_.has_images;
     const PlacedLasers placed = PlacedLasers::find(recording_, topics_, planar_clouds_, transforms, is_alone);
     info_.notes.insert(info_.notes.end(), placed.notes.begin(), placed.notes.end());
+    sensors_.add(sideFindings(placed, topics_));
     for (const PlacedLaser& laser : placed.lasers) {
       info_.lasers.push_back({laser.frame, laser.T_base_laser});
       laser_topics_.push_back(laser.topic);
@@ -237,6 +236,7 @@ class BagSource : public Source {
     names_.insert(names_.end(), laser_topics_.begin(), laser_topics_.end());
     for (std::string& name : panorama_.topics()) names_.push_back(std::move(name));
     for (std::string& name : sweeps_in_bag_.topics()) names_.push_back(std::move(name));
+    for (const DepthCamera& camera : depth_.cameras()) names_.push_back(camera.topic);
   }
 
   /// Returns the topics whose stamps are those of the frames, or of the sweeps without images.
@@ -311,7 +311,7 @@ class BagSource : public Source {
       bag_end_ = std::make_shared<BagEnd>(BagEnd{groups_[group_].end, groups_[group_].receipt,
                                                  urban_nav_core::seal(kBagStateName, kBagStateVersion, writer.take()),
                                                  std::exchange(scans_, {}), std::exchange(panoramas_, {}),
-                                                 std::exchange(sweeps_, {})});
+                                                 std::exchange(sweeps_, {}), depth_.take()});
     }
     if (++group_ < groups_.size()) {
       readGroup();
@@ -345,10 +345,11 @@ class BagSource : public Source {
         sensors_.addLaser(topic, place.first, place.second);
       }
     }
-    archive(panorama_, sweeps_in_bag_, moved_sweeps_, has_planar_laser);
+    archive(panorama_, sweeps_in_bag_, moved_sweeps_, depth_, has_planar_laser);
     archive.require(has_planar_laser == planar_laser_.has_value(), "a horizontal planar laser in all bags, or in none");
     if (planar_laser_) archive(*planar_laser_);
     info_.panorama = panorama_.cameras();
+    info_.depth_cameras = depth_.cameras();
     if (archive.isReading()) listen();
     archive(sensors_, *wheels_, *gyroscope_);
     if (feed_) archive(*feed_);
@@ -364,9 +365,7 @@ class BagSource : public Source {
                                    std::string("state of ") + kBagStateName);
     archive(reader);
     reader.finish();
-    const auto same = [](const urban_nav_core::Pose& a, const urban_nav_core::Pose& b) {
-      return a.q().coeffs() == b.q().coeffs() && a.t() == b.t();
-    };
+    const auto same = [](const auto& a, const auto& b) { return a.q().coeffs() == b.q().coeffs() && a.t() == b.t(); };
     if ((info_.has_images && !isApprox(here.camera, info_.camera, 0.0)) ||
         (is_placed_ && !same(here.T_base_camera, info_.T_base_camera)) || (R_base_imu && R_base_imu != R_base_imu_))
       throw UserError(name_, "has a different calibration than the previous bags", "the same one");
@@ -410,7 +409,7 @@ class BagSource : public Source {
       add(instance, *scan);
     } else if (const auto fix = instance.as<sensor_msgs::NavSatFix>()) {
       sensors_.add(*fix, topic, instance.receipt());
-    } else if (panorama_.add(instance)) {
+    } else if (!depth_.add(instance) && panorama_.add(instance)) {
       takePanoramas();
     }
   }
@@ -434,11 +433,10 @@ class BagSource : public Source {
 
   void takeSweeps() {
     moved_sweeps_.add(sweeps_in_bag_.take());
-    for (SweepInput& sweep : moved_sweeps_.take()) sweeps_.push_back(std::move(sweep));
+    for (auto& sweep : moved_sweeps_.take()) sweeps_.push_back(std::move(sweep));
   }
-
   void takePanoramas() {
-    for (urban_nav_ros::Panorama& panorama : panorama_.take()) panoramas_.push_back(std::move(panorama));
+    for (auto& panorama : panorama_.take()) panoramas_.push_back(std::move(panorama));
   }
 
   void add(const RecordedMessage& instance, const sensor_msgs::LaserScan& message) {
@@ -473,6 +471,7 @@ class BagSource : public Source {
   BagPanorama panorama_;
   std::vector<urban_nav_ros::Panorama> panoramas_;  // since the previous pair or end of a bag
   BagSweeps sweeps_in_bag_;
+  BagDepth depth_;
   std::optional<PlanarLaser> planar_laser_;  // read as sweeps
   MovedSweeps moved_sweeps_;
   std::vector<SweepInput> sweeps_;  // since the previous item or end of a bag

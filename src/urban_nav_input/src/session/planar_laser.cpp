@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "recording/role_names.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/types/frames.hpp"
@@ -13,7 +14,8 @@ namespace urban_nav_input {
 
 namespace {
 
-constexpr std::array<Role, 3> kPlanarRoles = {{Role::LaserLeft, Role::LaserRight, Role::Scan}};
+constexpr std::array<Role, 6> kPlanarRoles = {
+    {Role::LaserLeft, Role::LaserRight, Role::Laser0, Role::Laser1, Role::Laser2, Role::Laser3}};
 
 }  // namespace
 
@@ -28,7 +30,7 @@ PlacedLasers PlacedLasers::find(Recording& recording, const BagTopics& topics, P
     const std::string& frame = scan->header.frame_id;
     const std::optional<urban_nav_core::Pose> T_base_laser = transforms.lookup(base, frame);
     const std::string moving = transforms.findMoving(base, frame);
-    const bool is_base = assumes_base && role == Role::Scan && placed.lasers.empty() && moving.empty();
+    const bool is_base = assumes_base && role == Role::Laser0 && placed.lasers.empty() && moving.empty();
     if (T_base_laser || is_base)
       placed.lasers.push_back({toString(role), topic->name, frame, T_base_laser.value_or(urban_nav_core::Pose())});
     if (T_base_laser) continue;
@@ -50,11 +52,33 @@ bool hasLaser(const BagTopics& topics) {
                      [&](Role role) { return topics.find(role).has_value(); });
 }
 
+std::vector<Finding> sideFindings(const PlacedLasers& placed, BagTopics topics) {
+  std::vector<Finding> findings;
+  for (const PlacedLaser& laser : placed.lasers) {
+    if (roleFromWord(laser.role) < Role::Laser0 || urban_nav_core::isHorizontal(laser.T_base_laser)) continue;
+    const double y = laser.T_base_laser.t().y();
+    for (const Role side : {Role::LaserLeft, Role::LaserRight}) {
+      if (topics.find(side) || (side == Role::LaserLeft ? y < 0.0 : y > 0.0)) continue;
+      topics.chosen[side] = {laser.topic, ""};
+      const std::string option = std::string(toString(side)) + ":=" + laser.topic;
+      Finding finding{FindingKind::Topics,
+                      laser.topic + " is read as " + laser.role + ", since its name indicates no side; it could be " +
+                          toString(side) + ", whose single beams can be labelled",
+                      "--topic " + option};
+      finding.options = {"--topic", option};
+      findings.push_back(std::move(finding));
+      break;
+    }
+  }
+  return findings;
+}
+
 std::optional<PlanarLaser> PlanarLaser::choose(const PlacedLasers& placed) {
   std::optional<PlanarLaser> chosen;
   for (const PlacedLaser& laser : placed.lasers) {
     if (!urban_nav_core::isHorizontal(laser.T_base_laser)) continue;
-    if (chosen && laser.role != toString(Role::Scan)) continue;
+    const bool is_further = roleFromWord(laser.role) >= Role::Laser0;
+    if (chosen && (!is_further || roleFromWord(chosen->laser_.role) >= Role::Laser0)) continue;
     chosen.emplace();
     chosen->laser_ = laser;
   }

@@ -26,8 +26,8 @@ struct PlacedLasers {
   std::vector<PlacedLaser> lasers;  ///< those with a mounting
   std::vector<std::string> notes;   ///< on the others, and on assumptions
 
-  /// Finds the mountings of the lasers with scans. `assumes_base`: without tf, a laser of the role `scan` is assumed
-  /// to be horizontal, at base_link.
+  /// Finds the mountings of the lasers with scans. `assumes_base`: without tf, a laser of the role `laser0` is
+  /// assumed to be horizontal, at base_link.
   static PlacedLasers find(Recording& recording, const BagTopics& topics, PlanarClouds& clouds,
                            const urban_nav_ros::StaticTransforms& transforms, bool assumes_base);
 };
@@ -35,10 +35,15 @@ struct PlacedLasers {
 /// Returns whether a topic has the role of a planar laser.
 bool hasLaser(const BagTopics& topics);
 
+/// Returns a finding for each tilted laser of the roles laser0, laser1, ... that could be laser_left or laser_right by
+/// its mounting, where that role is free.
+std::vector<Finding> sideFindings(const PlacedLasers& placed, BagTopics topics);
+
 /// The horizontal planar laser whose scans are read as sweeps. Not thread-safe.
 class PlanarLaser {
  public:
-  /// Returns the horizontal laser of the role `scan`, else the first horizontal one; nullopt without one.
+  /// Returns the first horizontal laser of the roles laser0, laser1, ..., else the first horizontal one; nullopt
+  /// without one.
   static std::optional<PlanarLaser> choose(const PlacedLasers& placed);
   /// Returns why a recording with nothing but these lasers, none of which is horizontal, has no odometry. `clouds`:
   /// findings on lasers that publish clouds.

@@ -71,6 +71,11 @@ class ReadAhead : public Source {
     return ended_ ? source_->scans() : std::vector<LaserInput>();
   }
 
+  std::vector<DepthInput> depths() const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return ended_ ? source_->depths() : std::vector<DepthInput>();
+  }
+
   std::vector<SweepInput> sweeps() const override {
     const std::lock_guard<std::mutex> lock(mutex_);
     return ended_ ? source_->sweeps() : std::vector<SweepInput>();

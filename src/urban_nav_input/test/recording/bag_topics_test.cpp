@@ -131,5 +131,34 @@ TEST(BagTopics, DoesAsItIsAsked) {
   EXPECT_THROW(chooseTopics(available, {"left=/p"}), urban_nav_core::UserError);
 }
 
+TEST(BagTopics, FindsOneStreamOfEachDepthCamera) {
+  const Topics available = {{"/camera/aligned_depth_to_color/image_raw", kImage},
+                            {"/camera/aligned_depth_to_color/camera_info", kInfo},
+                            {"/camera/depth/image_rect_raw", kImage},
+                            {"/camera/depth/image_rect_raw/compressedDepth", kCompressed},
+                            {"/camera/depth/camera_info", kInfo},
+                            {"/camera/color/image_raw", kImage},
+                            {"/robot/front/depth/image/compressedDepth", kCompressed},
+                            {"/robot/front/depth/image/compressed", kCompressed},
+                            {"/robot/rear/depth_registered/image", kImage},
+                            {"/stereo/disparity", kImage}};
+  const BagTopics topics = chooseTopics(available, {});
+  EXPECT_EQ(name(topics, Role::Depth0), "/camera/depth/image_rect_raw");
+  EXPECT_EQ(name(topics, Role::Depth0Info), "/camera/depth/camera_info");
+  EXPECT_EQ(name(topics, Role::Depth1), "/robot/front/depth/image/compressedDepth");
+  EXPECT_EQ(name(topics, Role::Depth2), "/robot/rear/depth_registered/image");
+  EXPECT_EQ(name(topics, Role::Depth3), "none");
+  EXPECT_EQ(name(topics, Role::Left), "none");
+  const BagTopics aligned = chooseTopics(available, {"depth0:=/camera/aligned_depth_to_color/image_raw"});
+  EXPECT_EQ(name(aligned, Role::Depth0), "/camera/aligned_depth_to_color/image_raw");
+  EXPECT_EQ(name(aligned, Role::Depth0Info), "/camera/aligned_depth_to_color/camera_info");
+}
+
+TEST(BagTopics, FindsNoStereoPairInAColourAndADepthImage) {
+  const BagTopics topics = chooseTopics({{"/camera/rgb", kImage}, {"/camera/depth", kImage}}, {});
+  EXPECT_EQ(name(topics, Role::Left), "none");
+  EXPECT_EQ(name(topics, Role::Depth0), "/camera/depth");
+}
+
 }  // namespace
 }  // namespace urban_nav_input

@@ -117,7 +117,8 @@ void writeScanBag(const std::string& path) {
   bag.write("/tf_static", ros::Time(1.5e9), transforms);
   for (int i = 0; i < 12; ++i) {
     const ros::Time stamp(1.5e9 + 0.05 * i);
-    bag.write("/scan", stamp, scanAt(stamp, "laser"));
+    for (const char* topic : {"/scan", "/scan_1", "/scan_2", "/scan_3"})
+      bag.write(topic, stamp, scanAt(stamp, "laser"));
   }
 }
 
@@ -145,6 +146,16 @@ std::string readMovingBag(const std::string& path, const InputParameters& parame
   for (const urban_nav_core::SpecificForce& sample : source->forces())
     text << sample.stamp << " " << sample.force.transpose() << "\n";
   return text.str();
+}
+
+/// Returns a changed value of each parameter of the further planar lasers.
+std::vector<urban_nav_core::testing::ParameterChange> changesOfLasers() {
+  std::vector<urban_nav_core::testing::ParameterChange> changes;
+  for (const std::string laser : {"laser0", "laser1", "laser2", "laser3"}) {
+    changes.push_back({laser + "_delay", 5.0});
+    for (const char* scale : {"_range_scale", "_angle_scale", "_time_scale"}) changes.push_back({laser + scale, 0.5});
+  }
+  return changes;
 }
 
 TEST(ParameterEffects, EachParameterChangesWhatIsRead) {
@@ -184,9 +195,7 @@ TEST(ParameterEffects, EachParameterChangesWhatIsRead) {
         read,
         {{"wheel_noise", 0.5}, {"wheels_scale", -1.0}, {"wheels_delay", 5.0}},
         {{"motion_input", "wheels"}}},
-       {"bag with a horizontal laser",
-        read_scans,
-        {{"scan_delay", 5.0}, {"scan_range_scale", 0.5}, {"scan_angle_scale", 0.5}, {"scan_time_scale", 0.5}}},
+       {"bag with a horizontal laser", read_scans, changesOfLasers()},
        {"bag with an IMU", read, {{"gyro_noise", 0.5}, {"gyroscope_scale", 0.5}}, {{"motion_input", "gyroscope"}}}},
       {{"sessions", "ForeignBags.TheUserStatesWhichRecordingsFormASession"},
        {"gps_delay", "BagFixes.AreMeasuredEarlierByTheDelay"}});

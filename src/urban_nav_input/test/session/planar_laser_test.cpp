@@ -87,6 +87,7 @@ struct ReadScans {
   SourceInfo info;
   std::vector<SweepInput> sweeps;
   std::size_t scans = 0;
+  std::vector<Finding> findings;
 };
 
 ReadScans readScans(const std::string& path, bool with_planar_sweeps = false,
@@ -104,6 +105,7 @@ ReadScans readScans(const std::string& path, bool with_planar_sweeps = false,
   while (const std::optional<SourceItem> item = source->next()) take(item->scans, item->sweeps);
   take(source->scans(), source->sweeps());
   read.info = source->info();
+  read.findings = source->sensorFindings();
   return read;
 }
 
@@ -129,14 +131,14 @@ TEST(PlanarLaser, AHorizontalOneIsReadAsSweeps) {
   for (const Vector3d& turn : {Vector3d(0, 0, 0.5), Vector3d(M_PI, 0, 0), Vector3d(0.1, 0, 0)}) {
     const ReadScans read = readScans(writeScans(folder, {{"/scan", "laser", mountedAt(turn)}}));
     EXPECT_FALSE(read.info.has_images);
-    EXPECT_EQ(read.info.planar_role, "scan");
+    EXPECT_EQ(read.info.planar_role, "laser0");
     EXPECT_EQ(read.info.frames, kScanCount);
     EXPECT_TRUE(hasNote(read.info, "planar motion only"));
     ASSERT_EQ(read.sweeps.size(), static_cast<std::size_t>(kScanCount));
     EXPECT_EQ(read.scans, read.sweeps.size());  // for the map
     const SweepInput& first = read.sweeps.front();
     EXPECT_TRUE(first.is_planar);
-    EXPECT_EQ(first.role, "scan");
+    EXPECT_EQ(first.role, "laser0");
     EXPECT_TRUE(isApprox(first.T_base_lidar, mountedAt(turn), 1e-12));
     EXPECT_EQ(first.sweep.times, Sweep::Times::Measured);
     EXPECT_NEAR(first.sweep.duration, 360 * 2e-4, 1e-7);
@@ -198,19 +200,51 @@ TEST(PlanarLaser, OneThatNodsIsRefusedWithTheReason) {
   EXPECT_NE(fault.find("nods or spins"), std::string::npos) << fault;
 }
 
-TEST(PlanarLaser, WithImagesItIsUsedOnlyIfAskedFor) {
+TEST(PlanarLaser, WithImagesItIsReadAsSweepsOnlyIfAskedFor) {
   const TemporaryFolder folder;
   const std::string path = writeScans(folder, {{"/scan", "laser", mountedAt({0, 0, 0})}}, true);
   const ReadScans unasked = readScans(path), asked = readScans(path, true);
   EXPECT_EQ(unasked.info.planar_role, "");
   EXPECT_TRUE(unasked.sweeps.empty());
-  EXPECT_TRUE(unasked.info.lasers.empty());
-  EXPECT_FALSE(hasNote(unasked.info, "scan: /scan"));
-  EXPECT_EQ(asked.info.planar_role, "scan");
+  EXPECT_EQ(unasked.scans, static_cast<std::size_t>(kScanCount - 1)) << "for the map";
+  EXPECT_TRUE(hasNote(unasked.info, "laser0: /scan (guessed)"));
+  EXPECT_EQ(asked.info.planar_role, "laser0");
   EXPECT_EQ(asked.sweeps.size(), static_cast<std::size_t>(kScanCount - 1)) << "the last one follows the last pair";
-  const ReadScans wished = readScans(path, false, {"scan:=/scan"});  // for the map
-  EXPECT_EQ(wished.info.planar_role, "");
-  EXPECT_EQ(wished.scans, static_cast<std::size_t>(kScanCount - 1));
+  EXPECT_EQ(readScans(path, false, {"scan:=/scan"}).scans, unasked.scans) << "the name of the topic is a role too";
+}
+
+TEST(PlanarLaser, TheSideOfATiltedOneWithAnotherNameIsProposed) {
+  const TemporaryFolder folder;
+  const Pose vertical = mountedAt({M_PI / 2, 0, 0});
+  const auto optionsWith = [&](const std::vector<ScanTopic>& lasers) {
+    std::vector<std::string> options;
+    for (const Finding& finding : readScans(writeScans(folder, lasers, true)).findings)
+      if (finding.kind == FindingKind::Topics) options.push_back(finding.options.at(1));
+    return options;
+  };
+  using Options = std::vector<std::string>;
+  EXPECT_EQ(optionsWith({{"/scan", "a", vertical}, {"/scan_rear", "b", vertical}}),
+            (Options{"laser_left:=/scan", "laser_right:=/scan_rear"}));
+  EXPECT_EQ(optionsWith({{"/scan", "a", Pose(vertical.q(), {0.0, -0.2, 0.0})}}), Options{"laser_right:=/scan"});
+  EXPECT_EQ(optionsWith({{"/scan", "a", vertical}, {"/laser_left/scan", "b", vertical}}),
+            Options{"laser_right:=/scan"});
+  EXPECT_EQ(optionsWith({{"/scan", "a", mountedAt({0, 0, 0})}}), Options()) << "a horizontal one has no side";
+}
+
+TEST(PlanarLaser, AllOfARobotAreReadForTheMap) {
+  const TemporaryFolder folder;
+  const std::string path = writeScans(folder,
+                                      {{"/front/scan", "front", mountedAt({0, 0, 0})},
+                                       {"/laser_left/scan", "laser_left", mountedAt({M_PI / 2, 0, 0})},
+                                       {"/rear/scan", "rear", mountedAt({M_PI, 0, 0})},
+                                       {"/scan", "push_broom", mountedAt({0, 1.0, 0})},
+                                       {"/camera/depth/scan", "camera", mountedAt({0, 0, 0})}},
+                                      true);
+  const ReadScans read = readScans(path);
+  EXPECT_EQ(read.scans, 4U * (kScanCount - 1)) << "not those that were computed from depth images";
+  for (const char* note : {"laser0: /scan (guessed)", "laser1: /front/scan (guessed)", "laser2: /rear/scan (guessed)"})
+    EXPECT_TRUE(hasNote(read.info, note)) << note;
+  EXPECT_EQ(readScans(path, false, {"laser0:=/camera/depth/scan"}).scans, 5U * (kScanCount - 1));
 }
 
 }  // namespace

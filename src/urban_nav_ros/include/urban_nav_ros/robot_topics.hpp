@@ -4,6 +4,8 @@
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include <set>
+#include <string>
 #include <type_traits>
 
 #include "urban_nav_core/trajectory/trajectory.hpp"
@@ -37,10 +39,10 @@ void subscribeTurns(StageNodeWith<Input>& node, int queue) {
 }
 
 /// Subscribes to both poses of odometry, to /tf_static, to the stereo camera and turns of its right camera if `stereo`,
-/// and to both lasers and the 3D LiDAR if `lasers`. Requires that Input is constructible from ImageInput, InfoInput,
-/// tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr, urban_nav_core::StampedPose (filtered) and
-/// urban_nav_core::SessionStep (smoothed); without sensor_msgs::PointCloud2ConstPtr, the LiDAR is left out.
-/// Odometry is also received during a pause, so that it has no gap.
+/// and to both lasers, a further one (`scan`) and the 3D LiDAR if `lasers`. Requires that Input is constructible from
+/// ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr, urban_nav_core::StampedPose
+/// (filtered) and urban_nav_core::SessionStep (smoothed); without sensor_msgs::PointCloud2ConstPtr, the LiDAR is left
+/// out. Odometry is also received during a pause, so that it has no gap.
 template <typename Input>
 void subscribeRobot(StageNodeWith<Input>& node, int queue, bool stereo, bool compressed, bool lasers) {
   TopicOptions options;
@@ -58,10 +60,14 @@ void subscribeRobot(StageNodeWith<Input>& node, int queue, bool stereo, bool com
         [](const tf2_msgs::TFMessageConstPtr& message) { return Input(message); });
   }
   options.group = topic_groups::kLasers;
-  for (const char* topic : {topics::kLaserLeft, topics::kLaserRight})
-    if (lasers)
-      node.template subscribeInput<sensor_msgs::LaserScan>(
-          topic, options, [](const sensor_msgs::LaserScanConstPtr& message) { return Input(message); });
+  std::set<std::string> scans;  // one topic may be connected to two names
+  for (const char* topic : {topics::kLaserLeft, topics::kLaserRight, topics::kScan}) {
+    if (!lasers || !scans.insert(node.nh().resolveName(topic)).second) continue;
+    TopicOptions of_laser = options;
+    of_laser.is_monitored = options.is_monitored && std::string(topic) != topics::kScan;  // the robot may have none
+    node.template subscribeInput<sensor_msgs::LaserScan>(
+        topic, of_laser, [](const sensor_msgs::LaserScanConstPtr& message) { return Input(message); });
+  }
   if constexpr (std::is_constructible_v<Input, sensor_msgs::PointCloud2ConstPtr>) {
     TopicOptions unmonitored = options;
     unmonitored.is_monitored = false;  // the robot may have none

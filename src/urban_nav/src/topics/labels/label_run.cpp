@@ -48,7 +48,7 @@ void labelScenes(const scene_labeler::LabelModel& model, const std::vector<Scene
     const SceneInput input = readScene(scenes[i]);
     const scene_labeler::Scene& scene = input.scene;
     const auto begin = LabelClock::now();
-    const scene_labeler::SceneLabels labels = scene_labeler::labelScene(model, scene, superpixel);
+    scene_labeler::SceneLabels labels = scene_labeler::labelScene(model, scene, superpixel);
     const double seconds = std::chrono::duration<double>(LabelClock::now() - begin).count();
     run.seconds += seconds;
     run.milliseconds.push_back(1e3 * seconds);
@@ -56,11 +56,11 @@ void labelScenes(const scene_labeler::LabelModel& model, const std::vector<Scene
     ++run.frames;
     run.new_place_frames += scene_labeler::isNewPlace(labels.share_unlike) ? 1U : 0U;
     run.points += scene.points.size();
+    take(i, input, labels);
     for (std::size_t point = 0; point < labels.labels.size(); ++point) {
       run.labelled += labels.labels[point] != scene_labeler::SceneClass::None ? 1U : 0U;
       run.unsure += labels.unsure[point];
     }
-    take(i, input, labels);
     progress.update(static_cast<std::int64_t>(i + 1));
   }
   progress.finish(static_cast<std::int64_t>(scenes.size()));

@@ -25,9 +25,9 @@ struct LabelRun {
   Json toJson(const scene_labeler::LabelModel& model) const;
 };
 
-/// Called with the number of a scene, the scene, and its labels.
+/// Called with the number of a scene, the scene, and its labels, which it may change.
 using TakeSceneLabels =
-    std::function<void(std::size_t index, const SceneInput& input, const scene_labeler::SceneLabels& labels)>;
+    std::function<void(std::size_t index, const SceneInput& input, scene_labeler::SceneLabels& labels)>;
 
 /// Labels scenes one after another and adds the statistics to `run`.
 void labelScenes(const scene_labeler::LabelModel& model, const std::vector<SceneFiles>& scenes, int superpixel,

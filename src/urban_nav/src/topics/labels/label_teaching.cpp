@@ -5,9 +5,11 @@
 #include <filesystem>
 
 #include "scene_labeler/parameters.hpp"
+#include "scene_labeler/training/train.hpp"
 #include "topics/labels/label_clicks.hpp"
 #include "topics/labels/label_model_file.hpp"
 #include "topics/labels/scene_files.hpp"
+#include "topics/labels/teach/correction_file.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/text.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -15,26 +17,84 @@
 namespace urban_nav {
 
 using scene_labeler::FeatureSet;
+using scene_labeler::LabelModel;
 using scene_labeler::TrainingFold;
 using urban_nav_core::UserError;
 
 namespace {
 
-/// Returns `plain`, with a number appended if a fold has that name.
-std::string freeName(const std::string& plain, const std::vector<TrainingFold>& folds) {
-  std::string name = plain;
-  const auto is_taken = [&] {
-    return std::any_of(folds.begin(), folds.end(), [&](const TrainingFold& fold) { return fold.name == name; });
-  };
-  for (int number = 2; is_taken(); ++number) name = plain + ", " + std::to_string(number);
-  return name;
-}
-
 bool isClickFile(const std::string& path) {
   return urban_nav_core::endsWith(path, ".csv") && urban_nav_core::CsvTable::read(path).has("bag");
 }
 
+urban_nav_core::DataError nothingCorrected(const std::string& path) {
+  return {path, "no label differs from the prediction of the model", "corrected labels"};
+}
+
 }  // namespace
+
+void requireSamples(const LabelModel& model, const std::string& name) {
+  if (model.samples.empty())
+    throw UserError(name, "holds no training samples", "a model that labels train wrote with samples (version 3)");
+}
+
+std::string correctionsFold(const std::string& name, const std::vector<TrainingFold>& folds) {
+  const std::string plain = "corrections of " + name;
+  std::string free = plain;
+  const auto is_taken = [&] {
+    return std::any_of(folds.begin(), folds.end(), [&](const TrainingFold& fold) { return fold.name == free; });
+  };
+  for (int number = 2; is_taken(); ++number) free = plain + ", " + std::to_string(number);
+  return free;
+}
+
+SceneCorrections readSceneCorrections(const std::string& path, const scene_labeler::ClassMap& map, Console& console) {
+  const std::vector<SceneFiles> found = findScenes({path});
+  if (found.size() != 1) throw UserError(path, std::to_string(found.size()) + " scenes", "one edited scene");
+  SceneCorrections corrections{found[0].name, found[0], {}, {}};
+  corrections.labels = map.toClasses(readSceneLabels(found[0], !map.isOwnNumbers()), path);
+  const std::string pictured = picturedScene(path);
+  if (!pictured.empty()) {
+    if (std::filesystem::is_regular_file(pictured)) corrections.files = findScenes({pictured}).front();
+    else
+      console.warn(path + ": " + pictured + " with its image is missing, so the corrections are learnt by shape only");
+  }
+  corrections.input = readScene(corrections.files);
+  if (corrections.input.scene.points.size() != corrections.labels.size())
+    throw UserError(corrections.files.points, std::to_string(corrections.input.scene.points.size()) + " points",
+                    std::to_string(corrections.labels.size()) + ", as in " + path);
+  return corrections;
+}
+
+bool SceneCorrections::describes(const SceneInput& scene) const {
+  const std::vector<Eigen::Vector3f>&own = input.scene.points, &other = scene.scene.points;
+  const auto is_same = [](const Eigen::Vector3f& a, const Eigen::Vector3f& b) { return a == b || !a.allFinite(); };
+  return input.offset == scene.offset && own.size() == other.size() &&
+         std::equal(own.begin(), own.end(), other.begin(), is_same);
+}
+
+LabelModel trainWithCorrections(const LabelModel& base, std::vector<TrainingFold> folds,
+                                const CorrectionTraining& options) {
+  scene_labeler::TrainingOptions training;
+  training.kind = base.kind;
+  training.features = base.features;
+  training.samples_per_class = options.samples_per_class;
+  training.seed = options.seed;
+  training.device = base.device;
+  training.base = &base;
+  training.adds_trees = true;
+  return scene_labeler::trainModel(std::move(folds), training, [](double) {}).model;
+}
+
+LabelModel teachByCorrections(const LabelModel& base, const std::string& name, const SceneCorrections& corrections,
+                              const CorrectionTraining& options) {
+  requireSamples(base, name);
+  std::vector<TrainingFold> folds = scene_labeler::restoreFolds(base);
+  const auto count = scene_labeler::addCorrections(base, corrections.input.scene, corrections.labels,
+                                                   options.superpixel, correctionsFold(corrections.name, folds), folds);
+  if (count.corrected == 0) throw nothingCorrected(corrections.files.points);
+  return trainWithCorrections(base, std::move(folds), options);
+}
 
 LabelTeaching::LabelTeaching(const Arguments& arguments) {
   if (arguments.has("corrections")) corrections_ = arguments.get("corrections");
@@ -49,8 +109,7 @@ LabelTeaching::LabelTeaching(const Arguments& arguments) {
   }
   const std::string path = arguments.get("add");
   base_ = readLabelModel(path).model;
-  if (base_->samples.empty())
-    throw UserError(path, "holds no training samples", "a model that labels train wrote with samples (version 3)");
+  requireSamples(*base_, path);
   if (arguments.has("features") && features_ != base_->features)
     throw UserError("--features", toString(features_), std::string(toString(base_->features)) + ", those of " + path);
   features_ = base_->features;
@@ -70,7 +129,7 @@ std::vector<TrainingFold> LabelTeaching::folds() const {
 void LabelTeaching::addClicks(const DriveOptions& options, Console& console, std::vector<TrainingFold>& folds) const {
   const LabelClicks clicks(corrections_);
   TrainingFold fold;
-  fold.name = freeName("corrections of " + std::filesystem::path(corrections_).stem().string(), folds);
+  fold.name = correctionsFold(std::filesystem::path(corrections_).stem().string(), folds);
   const std::size_t added = clicks.addTo(*base_, options, console, fold);
   if (added == 0)
     throw urban_nav_core::DataError(corrections_, "no frame shows a clicked return",
@@ -85,15 +144,10 @@ void LabelTeaching::addCorrections(const scene_labeler::ClassMap& map, const Dri
   if (corrections_.empty()) return;
   if (isClickFile(corrections_)) return addClicks(options, console, folds);
   const int superpixel = options.parameters->get(scene_labeler::table()).superpixel;
-  const std::vector<SceneFiles> files = findScenes({corrections_});
-  if (files.size() != 1) throw UserError(corrections_, std::to_string(files.size()) + " scenes", "one edited scene");
-  const std::vector<scene_labeler::SceneClass> labels =
-      map.toClasses(readSceneLabels(files[0], !map.isOwnNumbers()), corrections_);
-  const std::string name = freeName("corrections of " + files[0].name, folds);
-  const auto count = scene_labeler::addCorrections(*base_, readScene(files[0]).scene, labels, superpixel, name, folds);
-  if (count.corrected == 0)
-    throw urban_nav_core::DataError(corrections_, "no label differs from the prediction of the model",
-                                    "corrected labels");
+  const SceneCorrections corrections = readSceneCorrections(corrections_, map, console);
+  const auto count = scene_labeler::addCorrections(*base_, corrections.input.scene, corrections.labels, superpixel,
+                                                   correctionsFold(corrections.name, folds), folds);
+  if (count.corrected == 0) throw nothingCorrected(corrections_);
   console.info(corrections_ + ": " + std::to_string(count.corrected) + " of " + std::to_string(count.labelled) +
                " labelled points differ from the prediction of the model");
 }

@@ -12,6 +12,44 @@
 
 namespace urban_nav {
 
+/// Throws UserError for a model without training samples, which cannot be taught. `name`: of the model.
+void requireSamples(const scene_labeler::LabelModel& model, const std::string& name);
+
+/// Corrections of one scene, from a file with edited labels.
+struct SceneCorrections {
+  std::string name;  ///< of the file, without extension
+  SceneFiles files;  ///< of the scene: the file itself, or the one with an image that its header names
+  SceneInput input;
+  std::vector<scene_labeler::SceneClass> labels;  ///< one per point; None: no correction
+
+  /// Returns whether these are corrections of a scene: the same points in the same order.
+  bool describes(const SceneInput& scene) const;
+};
+
+/// Reads an edited scene. Warns if its header names a scene with an image that no longer exists. Throws UserError for a
+/// file without labels or with an unknown one.
+SceneCorrections readSceneCorrections(const std::string& path, const scene_labeler::ClassMap& map, Console& console);
+
+/// Returns the name of the training fold of the corrections in a file, unlike those of `folds`.
+std::string correctionsFold(const std::string& name, const std::vector<scene_labeler::TrainingFold>& folds);
+
+/// Options of the training by corrections.
+struct CorrectionTraining {
+  int superpixel = 12;                   ///< px, scene_labeler.superpixel
+  std::size_t samples_per_class = 3000;  ///< scene_labeler.samples
+  std::uint64_t seed = 1;                ///< --seed of train
+};
+
+/// Returns a model with trees added for the last of `folds`, the corrections; the others are those of restoreFolds().
+scene_labeler::LabelModel trainWithCorrections(const scene_labeler::LabelModel& base,
+                                               std::vector<scene_labeler::TrainingFold> folds,
+                                               const CorrectionTraining& options);
+
+/// Returns the model taught by a file of corrections, as `labels train --add MODEL --corrections FILE` does. Throws
+/// UserError for a model without samples, DataError if nothing is corrected. `name`: of the model.
+scene_labeler::LabelModel teachByCorrections(const scene_labeler::LabelModel& base, const std::string& name,
+                                             const SceneCorrections& corrections, const CorrectionTraining& options);
+
 /// Input of `labels train` from a model and from manual corrections.
 class LabelTeaching {
  public:

@@ -9,8 +9,10 @@
 #include "topics/labels/label_model_file.hpp"
 #include "topics/labels/label_score.hpp"
 #include "topics/labels/label_sources.hpp"
+#include "topics/labels/label_teaching.hpp"
 #include "topics/labels/labelled_cloud_files.hpp"
 #include "topics/labels/labels_actions.hpp"
+#include "topics/labels/teach/scene_teacher.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
@@ -100,10 +102,24 @@ scene_labeler::LabelModel readAppliedModel(const Arguments& arguments, const Par
   return model;
 }
 
+/// Corrections of --corrections, by which the model is taught before it is applied.
+std::optional<SceneCorrections> applyCorrections(const Arguments& arguments, const ParameterSet& parameters,
+                                                 Console& console, scene_labeler::LabelModel& model) {
+  if (!arguments.has("corrections")) return std::nullopt;
+  const scene_labeler::Parameters& labeler = parameters.get(scene_labeler::table());
+  CorrectionTraining training;
+  training.superpixel = labeler.superpixel;
+  training.samples_per_class = static_cast<std::size_t>(labeler.samples);
+  SceneCorrections corrections = readSceneCorrections(arguments.get("corrections"), ClassMap(), console);
+  model = teachByCorrections(model, arguments.get("MODEL"), corrections, training);
+  return corrections;
+}
+
 int runLabelsApply(const OdometryRunner& run_odometry, const Arguments& arguments, Console& console) {
   const ParameterSet parameters = loadParameters(arguments);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
-  const scene_labeler::LabelModel model = readAppliedModel(arguments, parameters, console);
+  scene_labeler::LabelModel model = readAppliedModel(arguments, parameters, console);
+  const std::optional<SceneCorrections> corrections = applyCorrections(arguments, parameters, console, model);
   const LabelFormats formats = readLabelFormats(arguments);
   const LabelSources sources = findLabelSources(arguments, parameters, run_odometry);
   const std::vector<SceneFiles>& scenes = sources.scenes;
@@ -120,7 +136,8 @@ int runLabelsApply(const OdometryRunner& run_odometry, const Arguments& argument
                console, run);
   labelScenes(
       model, scenes, parameters.get(scene_labeler::table()).superpixel, console,
-      [&](std::size_t i, const SceneInput& input, const scene_labeler::SceneLabels& labels) {
+      [&](std::size_t i, const SceneInput& input, scene_labeler::SceneLabels& labels) {
+        if (corrections && corrections->describes(input)) keepCorrections(corrections->labels, labels);
         writeScene((folder / (scenes[i].name + "_labels")).string(), formats, input, labels, console);
       },
       run);
@@ -178,9 +195,7 @@ int runLabelsEvaluate(const OdometryRunner& run_odometry, const Arguments& argum
         run);
   labelScenes(
       model, sources.scenes, parameters.get(scene_labeler::table()).superpixel, console,
-      [&](std::size_t i, const SceneInput&, const scene_labeler::SceneLabels& labels) {
-        score.add(labels, truth.scenes[i]);
-      },
+      [&](std::size_t i, const SceneInput&, scene_labeler::SceneLabels& labels) { score.add(labels, truth.scenes[i]); },
       run);
   if (score.points() == 0)
     throw urban_nav_core::DataError("SRC", "no point has a label to compare with", "labelled scenes");
@@ -228,6 +243,13 @@ Command labelsApplyAction(const OdometryRunner& run_odometry) {
                             false,
                             {}});
   action.options.push_back(labelFormatsOption());
+  action.options.push_back({"--corrections",
+                            "FILE",
+                            "scene with edited labels, as of labels train: teaches MODEL first; corrected points of "
+                            "that scene keep their classes",
+                            false,
+                            false,
+                            {}});
   addCommonLabelOptions(action);
   action.examples = {"urban_nav labels apply street.labels scenes -o labelled"};
   action.run = [run_odometry](const Arguments& arguments, Console& console) {

@@ -121,6 +121,11 @@ std::vector<SceneFiles> findScenes(const std::vector<std::string>& sources) {
   return scenes;
 }
 
+std::string sceneName(const std::string& path) {
+  const std::string file = std::filesystem::path(path).filename().string();
+  return withoutPoints(withoutCloudExtension(file).value_or(file));
+}
+
 std::vector<std::string> uniqueSceneNames(const std::vector<SceneFiles>& scenes) {
   std::map<std::string, int> counts;
   for (const SceneFiles& files : scenes) ++counts[files.name];

@@ -22,6 +22,9 @@ struct SceneFiles {
 /// name. Throws UserError for a path without scenes, an image without projection.txt, and a duplicate scene.
 std::vector<SceneFiles> findScenes(const std::vector<std::string>& sources);
 
+/// Returns the name of the scene of a file of returns: its name without _points and extension.
+std::string sceneName(const std::string& path);
+
 /// Returns a unique name for each scene: its name, or its path if two scenes have the same name.
 std::vector<std::string> uniqueSceneNames(const std::vector<SceneFiles>& scenes);
 

@@ -17,7 +17,8 @@ using SharedCalibrations = std::shared_ptr<std::vector<SessionCalibration>>;
 /// `calibrations`.
 std::unique_ptr<Stage> makeCalibrationStage(SharedCalibrations calibrations);
 
-/// Returns the stage that stores sweeps of 3D LiDARs for the map, closures and localization.
+/// Returns the stage that stores sweeps of 3D LiDARs for the map, closures and localization, and images of depth
+/// cameras for the map.
 std::unique_ptr<Stage> makeSweepsStage();
 
 /// Returns the stage that renders the laser scans of all sessions along their trajectories into map.ply.

@@ -85,7 +85,7 @@ std::string printPoints(const std::vector<MapPoint>& points, LaserMapRun& run, S
   for (const MapPoint& point : points) {
     appendVertex(bytes, point);
     counts.add(point.laser);
-    if (point.laser == laser_mapper::kStereoSensor) ++run.stereo;
+    if (laser_mapper::isOfImages(point.laser)) ++run.stereo;
     else sigmas.add(point.sigma);
   }
   return bytes;

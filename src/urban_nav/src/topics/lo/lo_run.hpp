@@ -19,7 +19,7 @@ struct LoFigures {
 
 /// Laser odometry of one session.
 struct LoRun : SessionOdometry {
-  std::string role;                        ///< of the LiDAR: "points0", "scan"; empty before its first sweep
+  std::string role;                        ///< of the LiDAR: "points0", "laser0"; empty before its first sweep
   bool is_planar = false;                  ///< by a planar laser: planar motion only
   std::vector<LoFigures> figures;          ///< one per element of `frames`
   urban_nav_core::MotionEstimates motion;  ///< gyroscope and wheels compared with the sweeps, as known at the end

@@ -13,6 +13,7 @@
 #include "topics/stereo/disparity_picture.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/io/format_number.hpp"
+#include "urban_nav_core/laser/planar_sweep.hpp"
 #include "urban_nav_registration/pictures/picture.hpp"
 
 namespace urban_nav {
@@ -91,6 +92,13 @@ StereoPicture drawPanels(const NearScene& scene, const urban_nav_core::ImageView
   return made;
 }
 
+/// Returns whether a planar laser maps surfaces around the robot. A horizontal one measures one height alone.
+bool hasTiltedLaser(const urban_nav_input::SourceInfo& info) {
+  return std::any_of(info.lasers.begin(), info.lasers.end(), [](const urban_nav_input::LaserInfo& laser) {
+    return !urban_nav_core::isHorizontal(laser.T_base_laser);
+  });
+}
+
 std::string describeKeyframe(const StereoKeyframe& keyframe) {
   std::string text = urban_nav_core::formatNumber(100.0 * keyframe.answered, 3) + " % of the pixels matched, " +
                      urban_nav_core::formatNumber(100.0 * keyframe.near_share, 3) + " % of these near; ";
@@ -109,7 +117,7 @@ struct StereoMatcher::Setting {
   std::optional<Eigen::Vector3d> up;
   std::string session;
   double point_spacing = 0.1;
-  bool has_lasers = false;  // planar ones
+  bool has_lasers = false;  // planar ones that the motion moves through space
 
   StereoOutput match(dense_stereo::NearSceneEstimator& estimator, const urban_nav_core::StereoPair& pair,
                      bool with_picture) const {
@@ -151,7 +159,7 @@ struct StereoMatcher::Setting {
 StereoMatcher::StereoMatcher(const dense_stereo::Parameters& parameters, const urban_nav_input::SourceInfo& info,
                              const std::string& session, bool one_thread)
     : setting_(std::make_shared<Setting>(Setting{info.camera, info.T_base_camera, expectedUp(info.T_base_camera),
-                                                 session, parameters.point_spacing, !info.lasers.empty()})),
+                                                 session, parameters.point_spacing, hasTiltedLaser(info)})),
       launch_(one_thread ? std::launch::deferred : std::launch::async) {
   for (auto& estimator : estimators_)
     estimator = std::make_shared<dense_stereo::NearSceneEstimator>(parameters, info.camera,

@@ -20,7 +20,7 @@ namespace urban_nav {
 struct StereoOutput {
   StereoKeyframe keyframe;
   urban_nav_store::GroundView ground;
-  std::optional<urban_nav_store::NearPoints> points;  ///< for sessions with planar lasers, to fill their map
+  std::optional<urban_nav_store::NearPoints> points;  ///< for sessions with tilted planar lasers, to fill their map
   std::optional<urban_nav_store::DepthView> view;     ///< for other sessions, to build their map
   std::optional<StereoPicture> picture;
 };

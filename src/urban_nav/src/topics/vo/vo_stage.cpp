@@ -161,7 +161,9 @@ class VoStage final : public Stage {
       stage_result.files.push_back({"landmarks" + suffix + ".ply", [&run] { return landmarksPly(run); }});
     }
     stage_result.data_faults = summary.warnings;
-    stage_result.files.push_back({"stats.csv", [of_sessions] { return statsCsv(of_sessions); }});
+    std::vector<const SessionOdometry*> chosen;
+    for (std::size_t i = 0; i < of_sessions.size(); ++i) chosen.push_back(context.sessions[i].odometry.get());
+    stage_result.files.push_back({"stats.csv", [of_sessions, chosen] { return statsCsv(of_sessions, chosen); }});
     stage_result.summary = toJson(summary);
     return stage_result;
   }

@@ -105,7 +105,7 @@ TEST(LoRecorder, OtherLidarsAndSweepsWithoutTimesAreNamed) {
 TEST(LoRecorder, APlanarLaserGivesPlanarMotionAndContinuesBitByBit) {
   const auto makeScan = [](double x, int number) {
     urban_nav_input::SweepInput input = makeSweep(x, number);
-    input.role = "scan";
+    input.role = "laser0";
     input.is_planar = true;
     auto& beams = input.sweep.beams;
     beams.erase(std::remove_if(beams.begin(), beams.end(),

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `map` of a recording that holds nothing but the scans of a planar laser.
+// `map` of recordings without images and 3D LiDARs: scans of a planar laser, alone and with a depth camera.
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
 #include <sensor_msgs/LaserScan.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/parameters.hpp"
 #include "commands/stages.hpp"
 #include "map/map_pipeline.hpp"
+#include "urban_nav_core/io/cloud/cloud_file.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_input/testing/bags.hpp"
@@ -73,6 +77,57 @@ std::string writeRoom(const TemporaryFolder& folder, const Pose& T_base_laser) {
   return path;
 }
 
+const Pose kDepthCamera(urban_nav_core::Quaterniond(0.5, -0.5, 0.5, -0.5), {0.3, -0.1, 0.9});
+constexpr int kDepthWidth = 64, kDepthHeight = 48;
+constexpr double kDepthFocal = 55.0;  // px
+
+/// Returns what a depth camera measures at the pose of the robot: whole millimetres, no ground.
+sensor_msgs::Image depthOfRoom(const ros::Time& stamp, const Pose& T_map_base) {
+  sensor_msgs::Image image;
+  image.header.stamp = stamp;
+  image.header.frame_id = "depth_optical";
+  image.encoding = "16UC1";
+  image.width = kDepthWidth;
+  image.height = kDepthHeight;
+  image.step = 2 * kDepthWidth;
+  const Pose T = T_map_base * kDepthCamera;
+  for (int v = 0; v < kDepthHeight; ++v)
+    for (int u = 0; u < kDepthWidth; ++u) {
+      const Vector3d ray((u - 31.5) / kDepthFocal, (v - 23.5) / kDepthFocal, 1.0);
+      const auto mm = static_cast<unsigned>(1e3 * rangeInRoom(T.t(), T.q() * ray.normalized()) / ray.norm() + 0.5);
+      image.data.push_back(static_cast<std::uint8_t>(mm & 0xFFU));
+      image.data.push_back(static_cast<std::uint8_t>(mm >> 8U));
+    }
+  return image;
+}
+
+/// Adds ten images a second of a depth camera to the recording of writeRoom().
+void addDepth(const std::string& path) {
+  rosbag::Bag bag(path, rosbag::bagmode::Append);
+  tf2_msgs::TFMessage places;
+  places.transforms.push_back(urban_nav_ros::toStaticTransform("base_link", "depth_optical", kDepthCamera));
+  bag.write("/tf_static", ros::Time(kRoomStart), places);
+  sensor_msgs::CameraInfo info;
+  info.width = kDepthWidth;
+  info.height = kDepthHeight;
+  info.K = {kDepthFocal, 0, 31.5, 0, kDepthFocal, 23.5, 0, 0, 1};
+  info.P = {kDepthFocal, 0, 31.5, 0, 0, kDepthFocal, 23.5, 0, 0, 0, 1, 0};
+  for (int i = 0; i < kTurns; ++i) {
+    const ros::Time stamp(kRoomStart + kTurnPeriod * (i + 0.4));
+    bag.write("/camera/depth/image_rect_raw", stamp, depthOfRoom(stamp, robotAt(kTurnPeriod * (i + 0.4))));
+    info.header.stamp = stamp;
+    bag.write("/camera/depth/camera_info", stamp, info);
+  }
+}
+
+/// Distance of a point to the walls of the room and of the box.
+double distanceToWalls(const Vector3d& p) {
+  const double room = std::min(std::abs(std::abs(p.x()) - 6.0), std::abs(std::abs(p.y()) - 4.5));
+  const double dx = std::abs(p.x() - 2.5) - 0.5, dy = std::abs(p.y() - 3.0) - 0.5;
+  const double box = dx > 0.0 && dy > 0.0 ? std::hypot(dx, dy) : std::abs(std::max(dx, dy));
+  return std::min(room, box);
+}
+
 void mapRoom(const std::string& bag, const std::string& out, int threads, const std::vector<std::string>& stages) {
   const Arguments none({}, addStageTables);
   MapOptions request{{bag}, out, stages, "", "", "", {}, loadParameters(none), threads};
@@ -96,12 +151,38 @@ TEST(PlanarMap, ARoomIsMappedFromTheScansOfAHorizontalLaser) {
   EXPECT_NE(readFile(folder.file("out/sweeps.csv")).find(",OK,planar,"), std::string::npos);
   const std::string summary = readFile(folder.file("out/summary.json"));
   EXPECT_NE(summary.find("planar motion only: height, roll and pitch are assumed"), std::string::npos);
-  EXPECT_NE(summary.find("\"role\": \"scan\""), std::string::npos);
+  EXPECT_NE(summary.find("\"role\": \"laser0\""), std::string::npos);
   EXPECT_FALSE(readFile(folder.file("out/map.ply")).empty());
 
   mapRoom(bag, folder.file("two"), 2, {});
   for (const char* name : {"trajectory.tum", "covariance.csv", "sweeps.csv", "map.ply"})
     EXPECT_EQ(readFile(folder.file("two/") + name), readFile(folder.file("out/") + name)) << name;
+}
+
+TEST(PlanarMap, ADepthCameraAddsItsSurfaces) {
+  const TemporaryFolder folder;
+  const std::string bag = writeRoom(folder, Pose(urban_nav_core::expSo3({0.0, 0.0, 0.4}), {0.2, 0.05, 0.3}));
+  addDepth(bag);
+  mapRoom(bag, folder.file("out"), 1, {});
+  const std::string map = folder.file("out/map.ply");
+  EXPECT_NE(readFile(map).find("comment sensor 123 depth0 depth_optical\n"), std::string::npos);
+  EXPECT_NE(readFile(map).find("comment sensor 2 laser0 laser\n"), std::string::npos);
+  const urban_nav_core::PointCloud cloud = urban_nav_core::readCloud(map).cloud;
+  std::vector<double> errors;
+  const urban_nav_core::Trajectory trajectory = urban_nav_core::readTum(folder.file("out/trajectory.tum"));
+  const double first = 1e-9 * static_cast<double>(trajectory[0].stamp) - kRoomStart;
+  for (const Eigen::Vector3f& p : cloud.points)
+    if (p.z() > 0.6F) errors.push_back(distanceToWalls(robotAt(first) * p.cast<double>()));  // above the laser
+  ASSERT_GT(errors.size(), 1000U);
+  std::sort(errors.begin(), errors.end());
+  EXPECT_LT(errors[errors.size() / 2], 0.01);
+  EXPECT_LT(errors[errors.size() * 95 / 100], 0.05);
+  const std::string summary = readFile(folder.file("out/summary.json"));
+  EXPECT_NE(summary.find("\"role\": \"depth0\""), std::string::npos);
+  EXPECT_NE(summary.find("\"depth0\":"), std::string::npos) << "points_by_sensor";
+
+  mapRoom(bag, folder.file("two"), 2, {});
+  EXPECT_EQ(readFile(folder.file("two/map.ply")), readFile(map));
 }
 
 TEST(PlanarMap, AVerticalLaserIsRefusedWithTheReason) {

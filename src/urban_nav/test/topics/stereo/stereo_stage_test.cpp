@@ -117,7 +117,8 @@ TEST(StereoMatcher, KeepsOtherPointsWithAnotherSpacing) {
   const auto frame = source->next();
   ASSERT_TRUE(frame);
   urban_nav_input::SourceInfo info = source->info();
-  info.lasers.push_back({"laser_left", Pose()});
+  info.lasers.push_back(
+      {"laser_left", Pose(Quaterniond(Eigen::AngleAxisd(M_PI / 2.0, Vector3d::UnitX())), Vector3d::Zero())});
   const auto pointsWith = [&](const dense_stereo::Parameters& parameters) {
     StereoMatcher matcher(parameters, info, "session", true);
     matcher.add(frame->assembled, 0, false);

@@ -46,7 +46,7 @@ TEST(VoState, ComesBackBitByBit) {
   for (std::size_t i = 0; i < files.size(); ++i) EXPECT_EQ(files_again[i].content(), files[i].content()) << i;
   EXPECT_EQ(chainG2o(*back), chainG2o(run));
   EXPECT_TRUE(landmarksPly(*back) == landmarksPly(run));
-  EXPECT_EQ(statsCsv({&*back}), statsCsv({&run}));
+  EXPECT_EQ(statsCsv({&*back}, {&*back}), statsCsv({&run}, {&run}));
   ASSERT_EQ(back->pictures.size(), run.pictures.size());
   EXPECT_FALSE(run.pictures.empty());
   EXPECT_EQ(back->pictures.front().jpeg, run.pictures.front().jpeg);

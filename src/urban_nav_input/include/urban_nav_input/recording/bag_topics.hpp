@@ -22,11 +22,22 @@ enum class Role {
   LaserRight,
   Truth,
   Gps,
-  Scan,
+  Laser0,
+  Laser1,
+  Laser2,
+  Laser3,
   Points0,
   Points1,
   Points2,
   Points3,
+  Depth0,
+  Depth1,
+  Depth2,
+  Depth3,
+  Depth0Info,
+  Depth1Info,
+  Depth2Info,
+  Depth3Info,
   Panorama0,
   Panorama1,
   Panorama2,
@@ -45,9 +56,19 @@ constexpr std::size_t kPanoramaCameras = 5;
 Role panoramaRole(std::size_t camera);
 Role panoramaInfoRole(std::size_t camera);
 
+constexpr std::size_t kFurtherLasers = 4;
+/// Returns the role of a planar laser other than `laser_left` and `laser_right`, 0 ... kFurtherLasers - 1.
+Role laserRole(std::size_t laser);
+
 constexpr std::size_t kPointsTopics = 4;
 /// Returns the role of a 3D LiDAR, 0 ... kPointsTopics - 1.
 Role pointsRole(std::size_t lidar);
+
+constexpr std::size_t kDepthCameras = 4;
+/// Return the roles of a depth camera, 0 ... kDepthCameras - 1.
+Role depthRole(std::size_t camera);
+Role depthInfoRole(std::size_t camera);
+
 /// Topic of a bag that is read for a role.
 struct ChosenTopic {
   std::string name;
@@ -68,14 +89,13 @@ struct BagTopics {
 /// "right" (or cam0 and cam1, image_0 and image_1, infra1 and infra2), else the only two image topics, in the order of
 /// their names. A panoramic head has at least two image topics whose names contain "ladybug" or "panorama", and
 /// "camera" or "cam" with a number. 3D LiDARs are the topics of clouds whose names are not those of computed clouds (a
-/// map, clusters, depth images), in the order of their names. A wish `preset:=NAME` takes the topics of a driver
-/// (driver_presets.hpp) for the roles that no other wish names. Throws UserError for an unknown role or preset in
-/// `wishes`, or a topic that is missing or of another type. Roles without a suitable topic are absent.
+/// map, clusters, depth images), in the order of their names. Further planar lasers are the other topics of scans whose
+/// names are not those of computed ones: "scan" first, then in the order of their names. A depth camera is a namespace
+/// with images named "depth": those not aligned to another camera first, raw before compressed ones. A wish
+/// `preset:=NAME` takes the topics of a driver (driver_presets.hpp) for the roles that no other wish names. Throws
+/// UserError for an unknown role or preset in `wishes`, or a topic that is missing or of another type. Roles without a
+/// suitable topic are absent.
 BagTopics chooseTopics(const std::map<std::string, std::string>& available, const std::vector<std::string>& wishes);
-
-/// Guesses the topic of a horizontal planar laser among those without a role, unless it has one: "scan", else the first
-/// topic of scans whose name is not that of computed ones (from depth images).
-void guessScan(const std::map<std::string, std::string>& available, BagTopics& topics);
 
 bool isImageType(const std::string& type);
 /// Returns whether messages of a type hold sweeps of 3D LiDARs: PointCloud2, or the CustomMsg of Livox.

@@ -17,7 +17,7 @@ namespace urban_nav_input {
 /// Counts defects of the scans of one laser. Not thread-safe.
 class LaserExamination {
  public:
-  /// `role`: "laser_left", "laser_right" or "scan", as in `input.laser_left_delay`. `convention`: for reading its
+  /// `role`: "laser_left", "laser_right", "laser0" ..., as in `input.laser_left_delay`. `convention`: for reading its
   /// messages.
   LaserExamination(std::string role, std::string topic, const urban_nav_core::LaserConvention& convention)
       : role_(std::move(role)), topic_(std::move(topic)), convention_(convention) {}

@@ -44,6 +44,8 @@ struct SourceOptions {
   /// Whether the scans of a horizontal planar laser are also read as sweeps if there are images. Without images and
   /// without clouds of a 3D LiDAR they are, if sweeps are.
   bool with_planar_sweeps = false;
+  /// Whether the images of depth cameras are read.
+  bool with_depth = false;
   SessionRule sessions = SessionRule::Auto;  ///< as input.sessions
 };
 /// Format of an input.

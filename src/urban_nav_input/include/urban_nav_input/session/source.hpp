@@ -32,13 +32,21 @@ struct LaserInput {
 
 /// A sweep of one of the 3D LiDARs of the robot, or a scan of a horizontal planar laser that is read as a sweep.
 struct SweepInput {
-  std::string role;  ///< "points0", "scan"
+  std::string role;  ///< "points0", "laser0"
   urban_nav_core::Pose T_base_lidar;
   urban_nav_core::Sweep sweep;
   bool is_planar = false;  ///< of a planar laser; the scan is also among the scans
   /// Motion since the sweep before this one, of any LiDAR, up to the end of this one, in order of time; empty without
   /// motion sensors.
   std::vector<urban_nav_core::MotionInput> inputs = {};
+};
+
+/// A depth image of one of the depth cameras of the robot, not decoded.
+struct DepthInput {
+  std::size_t camera = 0;  ///< index in SourceInfo::depth_cameras
+  urban_nav_core::StampNs stamp = 0;
+  sensor_msgs::ImageConstPtr raw;  ///< one of them
+  sensor_msgs::CompressedImageConstPtr compressed;
 };
 
 /// State of the reader of a recording at the end of a bag, which the next bag may follow.
@@ -50,10 +58,11 @@ struct BagEnd {
   std::vector<urban_nav_ros::Panorama>
       panoramas;                   ///< completed after the previous pair, up to here; in order of stamps
   std::vector<SweepInput> sweeps;  ///< read after the previous item, up to here; in order of reference
+  std::vector<DepthInput> depths;  ///< read after the previous item, up to here; in the order of the reader
 };
 
 /// An item of a Source: a decoded pair, and other data recorded since the previous one. Without a pair, only `bag_end`,
-/// `scans`, `panoramas` and `sweeps` are set.
+/// `scans`, `panoramas`, `sweeps` and `depths` are set.
 struct SourceItem : urban_nav_ros::DecodedPair {
   SourceItem() = default;
   SourceItem(urban_nav_ros::DecodedPair pair) : DecodedPair(std::move(pair)) {}
@@ -66,6 +75,9 @@ struct SourceItem : urban_nav_ros::DecodedPair {
   /// Read since the previous item, or since the end of that bag; in order of their references, which may be earlier or
   /// later than the stamp of the pair. Only with SourceOptions::with_sweeps.
   std::vector<SweepInput> sweeps;
+  /// Read since the previous item, or since the end of that bag; in the order of the reader. Only with
+  /// SourceOptions::with_depth.
+  std::vector<DepthInput> depths;
   /// Whether this is a stereo pair, complete or not. Only sources with sweeps return items without a pair: in sessions
   /// without images, and in gaps of the images.
   bool has_pair = true;
@@ -99,6 +111,14 @@ struct PanoramaCamera {
   std::optional<urban_nav_core::CameraInfo> calibration;  ///< nullopt: no camera_info
 };
 
+/// Depth camera of a robot.
+struct DepthCamera {
+  std::string role;                    ///< "depth0"
+  std::string topic, frame;            ///< of its images
+  urban_nav_core::Pose T_base_camera;  ///< of its optical frame
+  urban_nav_core::Pinhole pinhole;
+};
+
 /// Properties of an input, available before its first image is decoded.
 struct SourceInfo {
   std::string name;                             ///< as given by the user
@@ -110,8 +130,9 @@ struct SourceInfo {
   urban_nav_core::StampNs first = 0, last = 0;  ///< of these frames, if known
   std::vector<LaserInfo> lasers;                ///< with known extrinsics
   std::string planar_role;  ///< role of the horizontal planar laser whose scans are also sweeps; empty: none
-  std::vector<PanoramaCamera> panorama;  ///< cameras with images, ascending by number; empty: no panoramas
-  std::vector<InputStream> inputs;       ///< by role
+  std::vector<DepthCamera> depth_cameras;  ///< that are used; with SourceOptions::with_depth
+  std::vector<PanoramaCamera> panorama;    ///< cameras with images, ascending by number; empty: no panoramas
+  std::vector<InputStream> inputs;         ///< by role
   std::vector<std::pair<std::string, std::string>> topics = {};  ///< role and topic of the stereo camera; of recordings
   std::optional<urban_nav_core::StampNs> right_delay = {};       ///< ns, as input.right_delay; of recordings
   std::vector<std::string> notes;                                ///< guesses and assumptions, for the user
@@ -141,6 +162,8 @@ class Source {
   virtual std::vector<LaserInput> scans() const { return {}; }
   /// Returns sweeps after the last item and end of a bag. Valid after next() has returned nullopt.
   virtual std::vector<SweepInput> sweeps() const { return {}; }
+  /// Returns depth images after the last item and end of a bag. Valid after next() has returned nullopt.
+  virtual std::vector<DepthInput> depths() const { return {}; }
   /// Returns panoramas after the last pair and end of a bag. Valid after next() has returned nullopt.
   virtual std::vector<urban_nav_ros::Panorama> panoramas() const { return {}; }
   /// Returns the specific forces of the accelerometer; complete after next() has returned nullopt. Empty without an
