@@ -80,8 +80,8 @@ class SweepInputs {
   const Listener listener_;
   const Queue::Options queue_options_;
   StaticTransforms transforms_;
-  std::string frame_;                                  // of the sensor; empty before its first message
-  std::optional<urban_nav_core::Pose> T_base_sensor_;  // of waiting sweeps
+  std::string frame_;                                  // the frame of the sensor; empty before its first message
+  std::optional<urban_nav_core::Pose> T_base_sensor_;  // mounting for the waiting sweeps
   std::optional<SweepFeed> feed_;
   urban_nav_core::PlanarSweepReader scans_;
   std::string imu_frame_;                           // empty before the first message
