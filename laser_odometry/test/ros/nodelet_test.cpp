@@ -114,7 +114,7 @@ sensor_msgs::LaserScan toScanMessage(const Sweep& sweep, const std::string& fram
   return scan;
 }
 
-/// The same robot with a planar laser and wheels, in a namespace of its own.
+/// The same robot with a planar laser, in a namespace of its own: "aided" has wheels.
 class PlanarGraph : public urban_nav_ros::testing::Listener {
  public:
   explicit PlanarGraph(const std::string& ns = "planar")
@@ -148,7 +148,7 @@ class PlanarGraph : public urban_nav_ros::testing::Listener {
   const std::string ns_;
   const urban_nav_ros::testing::Receipts receipts_;
   ros::Publisher scans_ = advertise<sensor_msgs::LaserScan>(ns_ + "/scan");
-  ros::Publisher wheels_ = advertise<nav_msgs::Odometry>(ns_ + "/wheel_odom");
+  ros::Publisher wheels_ = ns_ == "aided" ? advertise<nav_msgs::Odometry>(ns_ + "/wheel_odom") : ros::Publisher();
   ros::Publisher tf_static_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
 };
 
@@ -179,7 +179,7 @@ TEST(LaserOdometryNodelet, FollowsTheScansOfAHorizontalPlanarLaserAndRefusesAVer
 
 nav_msgs::Odometry toWheelMessage(double seconds, const Pose& T_odom_base) {
   nav_msgs::Odometry message;
-  message.header.stamp = urban_nav_ros::toRosTime(std::llround(1e9 * seconds));
+  message.header.stamp = urban_nav_ros::toRosTime(SpinningLidar::toStamp(seconds));
   message.pose.pose = urban_nav_ros::toPoseMessage(T_odom_base);
   return message;
 }
