@@ -19,7 +19,7 @@ std::vector<std::string> describeSensor(const urban_nav_core::MotionEstimates& m
   const bool is_used = is_wheels ? motion.uses_wheels : motion.uses_gyroscope;
   const std::string name = is_wheels ? "wheels" : "gyroscope";
   if (!fault.empty()) return {name, "left out: " + fault, "", ""};
-  return {name, is_used ? "used" : "not confirmed by a motion yet", calibration, delay};
+  return {name, is_used ? "used" : "not used: no motion confirmed it", calibration, delay};
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST_F(TunnelDrive, IsCarriedByTheWheels) {
 }
 
 TEST_F(TunnelDrive, WithoutMotionInputHasTheBytesOfARecordingWithoutTheSensors) {
-  ASSERT_EQ(run({"convert", file("drive.bag"), "--topics", "points,tf_static", "-o", file("bare.bag")}), 0);
+  ASSERT_EQ(run({"convert", file("drive.bag"), "--topics", "/points,/tf_static", "-o", file("bare.bag")}), 0);
   ASSERT_EQ(run({"map", file("bare.bag"), "--stages", "lo", "--out", file("bare")}), 0);
   ASSERT_EQ(
       run({"map", file("drive.bag"), "--stages", "lo", "--set", "swf_vo.motion_input=none", "--out", file("none")}), 0);
