@@ -26,7 +26,7 @@ constexpr double kMeasured = 0.03;
 urban_nav_core::MotionSensors makeSensors() {
   urban_nav_core::MotionSensors::Options options;
   options.reference = "sweeps";
-  options.uses_unconfirmed = true;
+  options.uses_untested_wheels = true;
   return urban_nav_core::MotionSensors(options);
 }
 
@@ -91,6 +91,7 @@ class MotionAidedOdometry::Implementation {
     prior.step.covariance = step->covariance;
     prior.alone = step->covariance_alone;
     prior.has_translation = step->has_translation;
+    prior.has_tilt = step->has_gyroscope;
     if (sweep.times == Sweep::Times::Measured) prior.within = twistWithin(sweep, step->has_translation);
     return prior;
   }

@@ -149,7 +149,8 @@ Pipeline::Prediction Pipeline::predict(const Sweep& sweep, const std::optional<M
     prediction.covariance = prior->step.covariance;
     prediction.of_step = prior->alone.value_or(prior->step.covariance);
     prediction.is_measured = prior->has_translation;
-    prediction.is_turn_measured = true;
+    prediction.is_tilt_measured = prior->has_tilt;
+    prediction.has_prior = true;
     prediction.within = prior->within;
   } else {
     prediction.T_last_now = motion_.predict(prediction.seconds);
@@ -192,8 +193,9 @@ Pipeline::Aligned Pipeline::align(const SweepPoints& points, const Prediction& p
   options.space = space_;
   options.iterations = parameters_.iterations;
   options.surface_sigma = parameters_.surface_sigma;
-  options.coarse_level = prediction.is_measured ? 0 : 1;
-  options.start_sigma = prediction.is_measured ? 0.0 : motion_.isKnown() ? kPredictedStart : kUnknownStart;
+  const bool is_sure = prediction.is_measured && prediction.is_tilt_measured;
+  options.coarse_level = is_sure ? 0 : 1;
+  options.start_sigma = is_sure ? 0.0 : motion_.isKnown() ? kPredictedStart : kUnknownStart;
   const bool is_timed = parameters_.deskew && points.last_s > points.first_s && prediction.seconds > 0.0;
   if (is_timed) {
     options.velocity_sigma = parameters_.acceleration * prediction.seconds;
@@ -208,7 +210,8 @@ Pipeline::Aligned Pipeline::align(const SweepPoints& points, const Prediction& p
       SweepMotion expected =
           start ? start->first : SweepMotion{motion_.sweepTwist(T_last_now, prediction.seconds), Vector6d::Zero()};
       if (prediction.within && !start && round == 0) {  // later, the estimated step is more accurate
-        expected.twist.tail<3>() = prediction.within->tail<3>();
+        expected.twist[5] = (*prediction.within)[5];
+        if (prediction.is_tilt_measured) expected.twist.segment<2>(3) = prediction.within->segment<2>(3);
         if (prediction.is_measured) expected.twist.head<3>() = prediction.within->head<3>();
       }
       if (round > 0) aligned.motion = aligned.motion + aligned.registration.motion_change;

@@ -39,7 +39,8 @@ class Pipeline {
     Matrix6d covariance = Matrix6d::Identity();
     Matrix6d of_step = Matrix6d::Identity();  ///< part that does not depend on other predictions of a gap
     bool is_measured = false;                 ///< by another sensor
-    bool is_turn_measured = false;            ///< the rotation, by another sensor
+    bool is_tilt_measured = false;            ///< roll and pitch, by another sensor
+    bool has_prior = false;                   ///< by another sensor at all
     std::optional<Vector6d> within;           ///< twist within the sweep, by another sensor
   };
   /// A registered sweep with the deskewed segments of its last round, in base_link.

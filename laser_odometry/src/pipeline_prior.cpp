@@ -8,7 +8,7 @@ using urban_nav_core::Health;
 
 namespace {
 
-constexpr double kMostlyTurn = 0.05;  // rad: directions with a smaller translation are rotations
+constexpr double kUnmeasuredPart = 0.05;  // least part of a free direction that counts, 1 rad as 1 m
 
 }  // namespace
 
@@ -33,21 +33,22 @@ std::optional<MotionPrior> Pipeline::complete(const std::optional<MotionPrior>& 
 }
 
 std::vector<Vector6d> Pipeline::withoutMeasured(const std::vector<Vector6d>& free, const Prediction& prediction) {
-  if (prediction.is_measured) return {};
-  if (!prediction.is_turn_measured) return free;
-  std::vector<Vector6d> translations;
+  if (!prediction.has_prior) return free;
+  std::vector<Vector6d> rest;
   for (const Vector6d& direction : free) {
-    Vector6d translation = Vector6d::Zero();
-    translation.head<3>() = direction.head<3>();
-    if (translation.norm() > kMostlyTurn * direction.norm()) translations.push_back(translation);
+    Vector6d part = direction;
+    if (prediction.is_measured) part.head<3>().setZero();
+    if (prediction.is_tilt_measured) part.segment<2>(3).setZero();
+    part[5] = 0.0;
+    if (part.norm() > kUnmeasuredPart * direction.norm()) rest.push_back(part);
   }
-  return translations;
+  return rest;
 }
 
 Pipeline::Aligned Pipeline::alignWithPrior(const SweepPoints& points, const urban_nav_core::Sweep& sweep,
                                            Prediction& prediction) {
   Aligned aligned = align(points, prediction, T_odom_base_ * prediction.T_last_now);
-  if (!prediction.is_turn_measured || !motion_.isKnown() || !aligned.registration.solved) return aligned;
+  if (!prediction.has_prior || !motion_.isKnown() || !aligned.registration.solved) return aligned;
   const Registration& registration = aligned.registration;
   ComparedStep step;
   step.seconds = prediction.seconds;
@@ -77,8 +78,7 @@ void Pipeline::comparePrior(const std::optional<MotionPrior>& prior, const Predi
     step.covariance_by_prior = prior->step.covariance;
     agreement_.add(step, free);
   }
-  if (prior && !prediction.is_turn_measured)
-    result.status = statusOfPrior(std::move(result.status), agreement_.sentence());
+  if (prior && !prediction.has_prior) result.status = statusOfPrior(std::move(result.status), agreement_.sentence());
 }
 
 }  // namespace laser_odometry

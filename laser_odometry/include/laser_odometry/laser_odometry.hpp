@@ -44,6 +44,7 @@ struct MotionPrior {
   /// Whether the translation is measured; false: it is predicted by constant velocity, and those of `step`, its
   /// covariance and `within` are not used.
   bool has_translation = true;
+  bool has_tilt = true;  ///< whether roll and pitch are measured; false (wheels): `step` assumes them
   /// Covariance of the step by itself, if errors are common to consecutive steps; that of `step` is then the growth
   /// over a chain of them. nullopt: that of `step`.
   std::optional<urban_nav_core::Matrix6d> alone;

@@ -17,8 +17,9 @@ namespace laser_odometry {
 /// sweeps measure (urban_nav_core::MotionSensors); a sensor that contradicts the sweeps is excluded and named. Without
 /// inputs the poses are those of LaserOdometry, to the bit. Not thread-safe.
 ///
-/// Until the sweeps measured a motion, sensors are used with the standard deviations of their priors: a drive that
-/// begins in a tunnel has no other measurement along it.
+/// A gyroscope is used once a turn has confirmed it. Wheels are used from the start, with the standard deviations of
+/// their priors, as long as the sweeps do not measure their motion: a drive that begins in a tunnel has no other
+/// measurement along it.
 class MotionAidedOdometry {
  public:
   MotionAidedOdometry(const Parameters& parameters, const urban_nav_core::Pose& T_base_lidar,

@@ -10,8 +10,13 @@
 #include <cstring>
 
 #include "../support/floor_plans.hpp"
+#include "laser_odometry/motion_aided_odometry.hpp"
+#include "urban_nav_core/laser/planar_sweep.hpp"
+#include "urban_nav_core/sequence/sweep_motion_queue.hpp"
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
+#include "urban_nav_ros/laser_scan.hpp"
+#include "urban_nav_ros/motion.hpp"
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
 #include "urban_nav_ros/testing/listener.hpp"
@@ -109,12 +114,13 @@ sensor_msgs::LaserScan toScanMessage(const Sweep& sweep, const std::string& fram
   return scan;
 }
 
-/// The same robot with a planar laser, in a namespace of its own.
+/// The same robot with a planar laser, in a namespace of its own: "aided" has wheels.
 class PlanarGraph : public urban_nav_ros::testing::Listener {
  public:
-  PlanarGraph() : Listener("planar/laser_odometry"), receipts_("planar/laser_odometry") {
-    keep("planar/lo/odometry", odometry);
-    keep("planar/lo/status", statuses);
+  explicit PlanarGraph(const std::string& ns = "planar")
+      : Listener(ns + "/laser_odometry"), ns_(ns), receipts_(ns + "/laser_odometry") {
+    keep(ns + "/lo/odometry", odometry);
+    keep(ns + "/lo/status", statuses);
   }
   void place(const std::string& frame, const Pose& T_base_laser) {
     tf2_msgs::TFMessage message;
@@ -123,7 +129,10 @@ class PlanarGraph : public urban_nav_ros::testing::Listener {
     EXPECT_TRUE(receipts_.await({{"/tf_static", 1}}, [&] { tf_static_.publish(message); }));
   }
   void show(const Sweep& sweep, const std::string& frame) {
-    EXPECT_TRUE(receipts_.await({{"planar/scan", 1}}, [&] { scans_.publish(toScanMessage(sweep, frame)); }));
+    EXPECT_TRUE(receipts_.await({{ns_ + "/scan", 1}}, [&] { scans_.publish(toScanMessage(sweep, frame)); }));
+  }
+  void roll(const nav_msgs::Odometry& message) {
+    EXPECT_TRUE(receipts_.await({{ns_ + "/wheel_odom", 1}}, [&] { wheels_.publish(message); }));
   }
   bool isNamed(const std::string& fault) const {
     for (const auto& array : diagnostics)
@@ -136,8 +145,10 @@ class PlanarGraph : public urban_nav_ros::testing::Listener {
   std::vector<urban_nav_msgs::LaserOdometryStatus> statuses;
 
  private:
+  const std::string ns_;
   const urban_nav_ros::testing::Receipts receipts_;
-  ros::Publisher scans_ = advertise<sensor_msgs::LaserScan>("planar/scan");
+  ros::Publisher scans_ = advertise<sensor_msgs::LaserScan>(ns_ + "/scan");
+  ros::Publisher wheels_ = ns_ == "aided" ? advertise<nav_msgs::Odometry>(ns_ + "/wheel_odom") : ros::Publisher();
   ros::Publisher tf_static_ = advertise<tf2_msgs::TFMessage>("/tf_static", true);
 };
 
@@ -164,6 +175,73 @@ TEST(LaserOdometryNodelet, FollowsTheScansOfAHorizontalPlanarLaserAndRefusesAVer
   EXPECT_EQ(graph.statuses.back().status, urban_nav_msgs::LaserOdometryStatus::OK) << graph.statuses.back().message;
   EXPECT_EQ(graph.statuses.back().reason_name, "planar");
   EXPECT_TRUE(graph.statuses.back().deskewed);
+}
+
+nav_msgs::Odometry toWheelMessage(double seconds, const Pose& T_odom_base) {
+  nav_msgs::Odometry message;
+  message.header.stamp = urban_nav_ros::toRosTime(SpinningLidar::toStamp(seconds));
+  message.pose.pose = urban_nav_ros::toPoseMessage(T_odom_base);
+  return message;
+}
+
+/// Poses of the core for these scans and wheels, by the order of their stamps.
+std::vector<Pose> offlinePoses(const std::vector<Sweep>& sweeps, const std::vector<nav_msgs::Odometry>& wheels,
+                               const Pose& T_base_laser) {
+  urban_nav_core::SweepMotionQueue<Sweep>::Options options;
+  options.max_lateness = 200'000'000;
+  options.motion = urban_nav_core::toMotionChoice("wheels");
+  urban_nav_core::SweepMotionQueue<Sweep> queue(options);
+  urban_nav_core::PlanarSweepReader reader;
+  for (const Sweep& each : sweeps) {
+    const Sweep sweep = reader.read(*urban_nav_ros::toPlanarScan(toScanMessage(each, "laser"), {}));
+    queue.add(sweep.beams.back().stamp, sweep);
+  }
+  urban_nav_ros::WheelMotion motion(0.05);
+  for (const nav_msgs::Odometry& message : wheels)
+    if (const auto input = motion.add(message)) queue.add(*input);
+  queue.finish();
+  MotionAidedOdometry odometry({}, T_base_laser, Scanner::Planar);
+  std::vector<Pose> poses;
+  while (const auto ready = queue.take()) poses.push_back(odometry.process(ready->sweep, ready->inputs).T_odom_base);
+  return poses;
+}
+
+TEST(LaserOdometryNodelet, WheelsCarryTheMotionAlongACorridorAsOffline) {
+  PlanarGraph graph("aided");
+  ASSERT_TRUE(PlanarGraph::until([&] { return graph.isConnected(); }));
+  const SpinningLidar laser = makePlanarLaser();
+  const BoxWorld world = makeCorridor();
+  const auto motion = [](double t) { return Pose(Eigen::Quaterniond::Identity(), {t + 0.3 * std::sin(t), 0.0, 0.0}); };
+  graph.place("laser", laser.T_base_lidar);
+  constexpr int kScans = 30;
+  std::vector<Sweep> sweeps;
+  std::vector<nav_msgs::Odometry> wheels;
+  for (int i = 1; i <= kScans; ++i) {
+    sweeps.push_back(laser.scan(world, motion, 0.1 * i, 1));
+    graph.show(sweeps.back(), "laser");
+    // The messages of the wheels arrive after the scan that they follow.
+    for (int k = 0; k < 5; ++k) {
+      const double t = 0.1 * i - 0.04 + 0.02 * k;
+      wheels.push_back(toWheelMessage(t, motion(t)));
+      graph.roll(wheels.back());
+    }
+  }
+  EXPECT_TRUE(graph.call("finish"));
+  ASSERT_TRUE(PlanarGraph::until([&] { return graph.odometry.size() == kScans; })) << graph.odometry.size();
+  const auto last = urban_nav_ros::toPose(graph.odometry.back().pose.pose);
+  ASSERT_TRUE(last);
+  const Pose truth = motion(0.1).inverse() * motion(0.1 * kScans);
+  EXPECT_GT(truth.t().x(), 2.5);
+  EXPECT_LT(distanceBetween(*last, truth), 0.05);
+  ASSERT_TRUE(PlanarGraph::until([&] { return graph.statuses.size() == kScans; }));
+  EXPECT_EQ(graph.statuses.back().status, urban_nav_msgs::LaserOdometryStatus::DEGRADED);
+  const std::vector<Pose> expected = offlinePoses(sweeps, wheels, laser.T_base_lidar);
+  ASSERT_EQ(expected.size(), static_cast<std::size_t>(kScans));
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(graph.odometry[i].pose.pose.position.x, expected[i].t().x()) << i;
+    EXPECT_EQ(graph.odometry[i].pose.pose.position.y, expected[i].t().y()) << i;
+    EXPECT_EQ(graph.odometry[i].pose.pose.orientation.z, expected[i].q().z()) << i;
+  }
 }
 
 TEST(LaserOdometryNodelet, FollowsADriveAndReportsFaults) {

@@ -77,6 +77,8 @@ Agreement::Verdict Agreement::verdict() const {
   return Verdict::Agrees;
 }
 
+bool Agreement::isUntested() const { return compared_ < kFirstWait; }
+
 void Agreement::archive(Archive& archive) {
   archive(block_.seconds, block_.variance, block_.error, block_.by_reference, block_.by_sensor);
   archive(contradicted_, confirmed_, motion_, along_, along_variance_);

@@ -30,6 +30,18 @@ std::string describeNoImages(Recording& recording, const BagTopics& topics, cons
          (clouds.empty() ? "" : "; " + clouds.front().text + ", and have no 3D pose");
 }
 
+std::vector<std::string> imageTopics(const BagTopics& topics) {
+  return {topics.find(Role::Left)->name, topics.find(Role::Right)->name};
+}
+
+void addUsedTopics(const BagTopics& topics, const PlanarClouds& planar_clouds, const std::vector<std::string>& lidars,
+                   std::set<std::string>& used) {
+  for (const auto& [role, topic] : topics.chosen)
+    if (!isCloudType(topic.type) || planar_clouds.has(topic.name) ||
+        std::count(lidars.begin(), lidars.end(), topic.name) > 0)
+      used.insert(topic.name);
+}
+
 urban_nav_core::MotionChoice chooseMotion(const BagTopics& topics, const std::string& motion_input,
                                           const std::string& recording) {
   urban_nav_core::MotionChoice motion = urban_nav_core::toMotionChoice(motion_input);

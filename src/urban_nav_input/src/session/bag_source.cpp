@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdlib>
 #include <set>
 #include <tuple>
 
@@ -17,6 +14,7 @@
 #include "session/bag_sensors.hpp"
 #include "session/bag_sweeps.hpp"
 #include "session/given_transforms.hpp"
+#include "session/moved_sweeps.hpp"
 #include "session/planar_laser.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -49,9 +47,8 @@ namespace {
 constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns, of messages of one topic
 constexpr urban_nav_core::StampNs kLongestWait =
     1'000'000'000;  // ns, for a topic whose stamps are earlier than those of the images
-
 constexpr const char* kBagStateName = "reader of bags";
-constexpr std::uint32_t kBagStateVersion = 12;
+constexpr std::uint32_t kBagStateVersion = 13;
 constexpr urban_nav_core::StampNs kReceiptTolerance =
     25'000'000;                         // ns: images of a pair are received one after another
 constexpr std::size_t kMostSweeps = 4;  // waiting for a pair
@@ -68,7 +65,7 @@ class BagSource : public Source {
     const bool has_sweeps = options.with_sweeps && topics_.find(Role::Points0);
     if (!info_.has_images && !has_sweeps && !(mayUsePlanarLaser() && hasLaser(topics_)))
       throw DataError(name_, describeNoImages(recording_, topics_, planar_clouds_.findings()), "");
-    if (info_.has_images) motion_ = chooseMotion(topics_, options.motion_input, name_);
+    motion_ = chooseMotion(topics_, options.motion_input, name_);
     info_.name = name_ + (paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " more" : "");
     info_.kind = "bag";
     info_.notes = topics_.notes;
@@ -84,7 +81,6 @@ class BagSource : public Source {
   }
 
   const SourceInfo& info() const override { return info_; }
-
   std::optional<SourceItem> next() override {
     while (true) {
       if (feed_)
@@ -234,7 +230,7 @@ class BagSource : public Source {
     if (R_base_imu_) sensors_.placeImu(*R_base_imu_);
     wheels_.emplace(options_.wheel_noise);
     gyroscope_.emplace(options_.gyro_noise, R_base_imu_.value_or(urban_nav_core::Matrix3d::Identity()));
-    names_ = imageTopics();
+    names_ = info_.has_images ? imageTopics(topics_) : std::vector<std::string>();
     for (const Role role : {Role::Imu, Role::Wheels, Role::Gps})
       if (topics_.find(role)) names_.push_back(topics_.find(role)->name);
     names_.insert(names_.end(), laser_topics_.begin(), laser_topics_.end());
@@ -243,14 +239,9 @@ class BagSource : public Source {
     for (const DepthCamera& camera : depth_.cameras()) names_.push_back(camera.topic);
   }
 
-  std::vector<std::string> imageTopics() const {
-    return info_.has_images ? std::vector{topics_.find(Role::Left)->name, topics_.find(Role::Right)->name}
-                            : std::vector<std::string>();
-  }
-
   /// Returns the topics whose stamps are those of the frames, or of the sweeps without images.
   std::vector<std::string> leadingTopics() const {
-    if (info_.has_images) return imageTopics();
+    if (info_.has_images) return imageTopics(topics_);
     if (planar_laser_) return {planar_laser_->topic()};
     return sweeps_in_bag_.topics();
   }
@@ -264,6 +255,7 @@ class BagSource : public Source {
     surveyOrder(leading);
     feed.pairing_tolerance = convention_.tolerance;
     if (info_.has_images) feed_.emplace(feed, calibration_);
+    moved_sweeps_.expect({kMaxLateness, kLongestWait, urban_nav_core::DeliveryOrder::Shuffled, motion_});
     listen();
     noteUnused();
     groups_ = groupBags(recording_);
@@ -292,11 +284,7 @@ class BagSource : public Source {
   void noteUnused() {
     std::set<std::string> used(names_.begin(), names_.end());
     used.insert(options_.read_elsewhere.begin(), options_.read_elsewhere.end());
-    const std::vector<std::string> lidars = sweeps_in_bag_.topics();
-    for (const auto& [role, topic] : topics_.chosen)
-      if (!isCloudType(topic.type) || planar_clouds_.has(topic.name) ||
-          std::count(lidars.begin(), lidars.end(), topic.name) > 0)
-        used.insert(topic.name);
+    addUsedTopics(topics_, planar_clouds_, sweeps_in_bag_.topics(), used);
     const auto leave = [&](Role role, bool is_of_use) {  // examined in any case
       if (const auto topic = topics_.find(role); topic && !is_of_use) used.erase(topic->name);
     };
@@ -330,6 +318,8 @@ class BagSource : public Source {
       return;
     }
     if (feed_) feed_->finish();
+    moved_sweeps_.finish();
+    takeSweeps();
     panorama_.finish();
     takePanoramas();
     ended_ = true;
@@ -355,7 +345,7 @@ class BagSource : public Source {
         sensors_.addLaser(topic, place.first, place.second);
       }
     }
-    archive(panorama_, sweeps_in_bag_, depth_, has_planar_laser);
+    archive(panorama_, sweeps_in_bag_, moved_sweeps_, depth_, has_planar_laser);
     archive.require(has_planar_laser == planar_laser_.has_value(), "a horizontal planar laser in all bags, or in none");
     if (planar_laser_) archive(*planar_laser_);
     info_.panorama = panorama_.cameras();
@@ -411,10 +401,10 @@ class BagSource : public Source {
       }
     } else if (const auto odometry = instance.as<nav_msgs::Odometry>()) {
       if (!sensors_.add(*odometry, topic, instance.receipt()) || !motion_.wheels) return;
-      if (const auto motion = wheels_->add(*odometry)) feed_->add(*motion);
+      if (const auto motion = wheels_->add(*odometry)) add(*motion);
     } else if (const auto imu = instance.as<sensor_msgs::Imu>()) {
       if (!sensors_.add(*imu, topic, instance.receipt())) return;
-      if (const auto motion = gyroscope_->add(*imu); motion && motion_.gyroscope) feed_->add(*motion);
+      if (const auto motion = gyroscope_->add(*imu); motion && motion_.gyroscope) add(*motion);
     } else if (const auto scan = planar_clouds_.read(instance)) {
       add(instance, *scan);
     } else if (const auto fix = instance.as<sensor_msgs::NavSatFix>()) {
@@ -435,8 +425,15 @@ class BagSource : public Source {
       header.stamp = urban_nav_ros::toRosTime(stamp - convention_.right_delay);
   }
 
+  void add(const urban_nav_core::MotionInput& input) {
+    if (feed_) feed_->add(input);
+    moved_sweeps_.add(input);
+    takeSweeps();
+  }
+
   void takeSweeps() {
-    for (auto& sweep : sweeps_in_bag_.take()) sweeps_.push_back(std::move(sweep));
+    moved_sweeps_.add(sweeps_in_bag_.take());
+    for (auto& sweep : moved_sweeps_.take()) sweeps_.push_back(std::move(sweep));
   }
   void takePanoramas() {
     for (auto& panorama : panorama_.take()) panoramas_.push_back(std::move(panorama));
@@ -449,7 +446,9 @@ class BagSource : public Source {
     const auto planar = sensors_.read(laser, message, instance.receipt());
     if (!planar) return;
     scans_.push_back({laser, urban_nav_core::toScan(*planar)});
-    if (planar_laser_ && planar_laser_->topic() == topic) sweeps_.push_back(planar_laser_->read(*planar));
+    if (!planar_laser_ || planar_laser_->topic() != topic) return;
+    moved_sweeps_.add({planar_laser_->read(*planar)});
+    takeSweeps();
   }
 
   const SourceOptions options_;
@@ -474,10 +473,11 @@ class BagSource : public Source {
   BagSweeps sweeps_in_bag_;
   BagDepth depth_;
   std::optional<PlanarLaser> planar_laser_;  // read as sweeps
-  std::vector<SweepInput> sweeps_;           // since the previous item or end of a bag
-  std::optional<StereoFeed> feed_;           // with images
-  bool is_placed_ = false;                   // the bags have the extrinsics of the camera
-  std::vector<std::string> names_;           // of the read topics
+  MovedSweeps moved_sweeps_;
+  std::vector<SweepInput> sweeps_;  // since the previous item or end of a bag
+  std::optional<StereoFeed> feed_;  // with images
+  bool is_placed_ = false;          // the bags have the extrinsics of the camera
+  std::vector<std::string> names_;  // of the read topics
   std::vector<BagGroup> groups_;
   std::size_t group_ = 0;  // current group
   std::shared_ptr<const BagEnd> bag_end_;

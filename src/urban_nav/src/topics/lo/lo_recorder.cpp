@@ -5,7 +5,7 @@
 
 #include "pose_graph/level.hpp"
 #include "topics/lo/lo_run_state.hpp"
-#include "urban_nav_core/io/archive.hpp"
+#include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav {
@@ -13,7 +13,7 @@ namespace urban_nav {
 namespace {
 
 constexpr const char* kLoStateName = "laser odometry of a session";
-constexpr std::uint32_t kLoStateVersion = 1;
+constexpr std::uint32_t kLoStateVersion = 2;
 constexpr double kSampleStep = 10.0;            // m between samples of the surface
 constexpr double kSampleReach = 30.0;           // m, of a sample
 constexpr std::size_t kSurfacePoints = 60'000;  // for the picture
@@ -35,7 +35,7 @@ LoRecorder::LoRecorder(const laser_odometry::Parameters& parameters, const urban
   const std::string where = std::string("state of ") + kLoStateName;
   urban_nav_core::Archive archive(urban_nav_core::unseal(kLoStateName, kLoStateVersion, state), where);
   std::string packed_run, odometry;
-  archive(packed_run, odometry, T_base_lidar_, sampled_at_, others_, untimed_);
+  archive(packed_run, odometry, T_base_lidar_, sampled_at_, others_, untimed_, inputs_);
   archive.finish();
   std::optional<LoRun> found = unpackLoRun(packed_run);
   if (!found) throw urban_nav_core::DataError(where, "is damaged: its sweeps cannot be read", "");
@@ -51,6 +51,7 @@ laser_odometry::Scanner LoRecorder::scanner() const {
 }
 
 void LoRecorder::process(const urban_nav_input::SweepInput& input) {
+  inputs_.insert(inputs_.end(), input.inputs.begin(), input.inputs.end());
   if (run_.role.empty()) run_.role = input.role;
   if (input.role != run_.role) {
     ++others_;
@@ -65,7 +66,9 @@ void LoRecorder::process(const urban_nav_input::SweepInput& input) {
   if (input.sweep.times == urban_nav_core::Sweep::Times::Unknown) ++untimed_;
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
-  const laser_odometry::LaserPose pose = odometry_->process(input.sweep);
+  const laser_odometry::LaserPose pose = odometry_->process(input.sweep, inputs_);
+  inputs_.clear();
+  run_.motion = odometry_->motion();
   record(pose, std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
   if (pose.accepted) sampleSurface();
 }
@@ -102,7 +105,8 @@ std::string LoRecorder::state() const {
   urban_nav_core::Pose place = T_base_lidar_;
   std::optional<urban_nav_core::Vector3d> sampled_at = sampled_at_;
   std::int64_t others = others_, untimed = untimed_;
-  archive(run, odometry, place, sampled_at, others, untimed);
+  std::vector<urban_nav_core::MotionInput> inputs = inputs_;
+  archive(run, odometry, place, sampled_at, others, untimed, inputs);
   return urban_nav_core::seal(kLoStateName, kLoStateVersion, archive.take());
 }
 

@@ -4,14 +4,16 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "laser_odometry/motion_aided_odometry.hpp"
 #include "map/session_pass.hpp"
 #include "topics/lo/lo_run.hpp"
 
 namespace urban_nav {
 
-/// Feeds LaserOdometry with the sweeps of the first LiDAR and records its output for files and report. Not
-/// thread-safe.
+/// Feeds laser odometry with the sweeps of the first LiDAR and with the motion sensors, and records its output for
+/// files and report. Not thread-safe.
 class LoRecorder {
  public:
   /// `run`: filled while sweeps are processed; must outlive the recorder.
@@ -33,9 +35,11 @@ class LoRecorder {
 
   const laser_odometry::Parameters parameters_;
   LoRun& run_;
-  std::optional<laser_odometry::LaserOdometry> odometry_;  ///< empty before the first sweep, which has the mounting
+  std::optional<laser_odometry::MotionAidedOdometry>
+      odometry_;  ///< empty before the first sweep, which has the mounting
   urban_nav_core::Pose T_base_lidar_;
   std::optional<urban_nav_core::Vector3d> sampled_at_;  ///< position of the last sample of the surface, m
+  std::vector<urban_nav_core::MotionInput> inputs_;     ///< since the last sweep of the LiDAR
   std::int64_t others_ = 0;                             ///< sweeps of other LiDARs, which are not used
   std::int64_t untimed_ = 0;                            ///< sweeps whose points have no times
 };

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/plot.hpp"
+#include "map/motion_summary.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 
 namespace urban_nav {
@@ -130,6 +131,7 @@ std::vector<Section> loSections(const LoRun& run) {
   path.figures.push_back(sigmaFigure(run, 0, "Uncertainty of the position", "one standard deviation (m)", 1.0));
   path.figures.push_back(
       sigmaFigure(run, 3, "Uncertainty of the orientation", "one standard deviation (deg)", 180.0 / M_PI));
+  if (const std::optional<PageTable> motion = motionTable(run.motion)) path.tables.push_back(*motion);
   Section work{"laser-work", "Registration of the sweeps", "", {}, {}, {}};
   work.figures.push_back(
       sweepFigure(run, "Residuals", "mm",

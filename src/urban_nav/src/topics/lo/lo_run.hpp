@@ -6,6 +6,7 @@
 
 #include "laser_odometry/laser_odometry.hpp"
 #include "map/session_odometry.hpp"
+#include "urban_nav_core/motion/motion_estimates.hpp"
 
 namespace urban_nav {
 
@@ -18,10 +19,11 @@ struct LoFigures {
 
 /// Laser odometry of one session.
 struct LoRun : SessionOdometry {
-  std::string role;                      ///< of the LiDAR: "points0", "laser0"; empty before its first sweep
-  bool is_planar = false;                ///< by a planar laser: planar motion only
-  std::vector<LoFigures> figures;        ///< one per element of `frames`
-  std::vector<Eigen::Vector3f> surface;  ///< planes along the path, for the picture from above; m, in odom
+  std::string role;                        ///< of the LiDAR: "points0", "laser0"; empty before its first sweep
+  bool is_planar = false;                  ///< by a planar laser: planar motion only
+  std::vector<LoFigures> figures;          ///< one per element of `frames`
+  urban_nav_core::MotionEstimates motion;  ///< gyroscope and wheels compared with the sweeps, as known at the end
+  std::vector<Eigen::Vector3f> surface;    ///< planes along the path, for the picture from above; m, in odom
 };
 
 }  // namespace urban_nav

@@ -11,7 +11,7 @@ using urban_nav_core::Archive;
 namespace {
 
 constexpr const char* kLoRunName = "laser odometry of a session";
-constexpr std::uint32_t kLoRunVersion = 3;
+constexpr std::uint32_t kLoRunVersion = 4;
 
 /// A sweep in a stored state.
 struct StoredSweep {
@@ -43,7 +43,7 @@ struct StoredLoRun {
 
 void archiveMembers(Archive& archive, LoRun& run, StoredLoRun& stored) {
   archive(run.role, run.is_planar, run.T_base_lidar, stored.sweeps, stored.poses, run.surface, run.faults,
-          run.faults_total, run.forces);
+          run.faults_total, run.forces, run.motion);
   archive.require(stored.poses.size() <= stored.sweeps.size(), "more poses than sweeps");
 }
 

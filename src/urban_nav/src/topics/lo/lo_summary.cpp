@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "map/motion_summary.hpp"
 #include "urban_nav_core/trajectory/statistics.hpp"
 
 namespace urban_nav {
@@ -10,6 +11,7 @@ namespace urban_nav {
 namespace {
 
 constexpr std::size_t kFaultsInSummary = 20;
+constexpr double kLaserScaleSigma = 5e-4;  // relative, as laser_odometry states it
 
 std::string reasonName(const OdometryFrame& row) {
   return laser_odometry::toString(static_cast<laser_odometry::Reason>(row.status.reason));
@@ -66,6 +68,9 @@ LoSummary summariseLo(const std::vector<const LoRun*>& runs) {
       ++registered;
     }
     addWarnings(*run, summary.warnings);
+    summary.motion = run->motion;
+    if (!run->frames.empty())
+      addMotionFaults(run->motion, run->input, run->frames.front().stamp, summary.reason_sentences);
     addReasons(*run, summary.reason_sentences);
   }
   summary.warnings.insert(summary.warnings.end(), summary.reason_sentences.begin(), summary.reason_sentences.end());
@@ -88,6 +93,10 @@ Json toJson(const LoSummary& summary) {
   json["residual_m_mean"] = summary.residual_mean;
   json["degenerate"] = summary.degenerate;
   json["deskewed"] = summary.deskewed;
+  addMotion(summary.motion, kLaserScaleSigma, json);
+  Json& sensors = json["motion_sensors"] = Json::array();
+  if (summary.motion.uses_gyroscope) sensors.append("gyroscope");
+  if (summary.motion.uses_wheels) sensors.append("wheels");
   Json& statuses = json["status_counts"] = Json::object();
   for (const char* name : {"OK", "DEGRADED", "LOST", "RECOVERED"}) statuses[name] = summary.status_counts.at(name);
   Json& reasons = json["reason_counts"] = Json::object();

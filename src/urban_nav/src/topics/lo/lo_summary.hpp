@@ -22,6 +22,7 @@ struct LoSummary {
   bool deskewed = false;                              ///< the motion within sweeps was compensated, by this stage
   std::map<std::string, std::int64_t> status_counts;  ///< OK, DEGRADED, LOST, RECOVERED: all four
   std::map<std::string, std::int64_t> reason_counts;  ///< of sweeps that have one
+  urban_nav_core::MotionEstimates motion;             ///< of the last session, at its end
   std::vector<std::string> reason_sentences;          ///< reasons with their inputs, for the user
   std::vector<std::string> warnings;  ///< faults of the data and `reason_sentences`; each with its input
 };

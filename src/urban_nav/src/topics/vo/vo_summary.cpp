@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/plot.hpp"
+#include "map/motion_summary.hpp"
 #include "map/run_totals.hpp"
 #include "urban_nav_core/io/format_number.hpp"
 #include "urban_nav_core/trajectory/statistics.hpp"
@@ -93,36 +94,6 @@ void addTurns(const VoRun& run, std::vector<std::string>& warnings) {
   }
 }
 
-/// Appends the motion sensors that the images contradict.
-void addMotionSensors(const VoRun& run, std::vector<std::string>& warnings) {
-  for (const swf_vo::MotionSensorFault& fault : run.motion.faults)
-    warnings.push_back(run.input + ": " + describe(fault, run.frames.front().stamp));
-}
-
-/// Adds the states of the motion sensors in use. The scale of images has the uncertainty of the rig scale.
-void addMotion(const VoSummary& summary, Json& json) {
-  const swf_vo::MotionEstimates& motion = summary.motion;
-  const auto list = [](const Eigen::Vector3d& values) {
-    Json numbers = Json::array();
-    for (Eigen::Index i = 0; i < 3; ++i) numbers.append(values[i]);
-    return numbers;
-  };
-  if (motion.has_gyroscope && !motion.gyroscope_left_out) {
-    json["gyroscope_bias_radps"] = list(motion.gyroscope_bias);
-    json["gyroscope_bias_sigma_radps"] = list(motion.gyroscope_bias_sigma);
-    json["imu_offset_s"] = motion.imu_offset_s;
-    json["imu_offset_sigma_s"] = motion.imu_offset_sigma_s;
-  }
-  if (motion.has_wheels && !motion.wheels_left_out) {
-    json["wheel_scale"] = motion.wheel_scale;
-    json["wheel_scale_sigma"] = std::hypot(motion.wheel_scale_sigma, motion.wheel_scale * summary.rig.scale_sigma);
-    json["wheel_turn_scale"] = motion.wheel_turn_scale;
-    json["wheel_turn_scale_sigma"] = motion.wheel_turn_scale_sigma;
-    json["wheel_offset_s"] = motion.wheel_offset_s;
-    json["wheel_offset_sigma_s"] = motion.wheel_offset_sigma_s;
-  }
-}
-
 void addWarnings(const VoRun& run, std::int64_t dropped, std::vector<std::string>& warnings) {
   const std::string where = run.input + ": ";
   if (dropped > 0)
@@ -177,7 +148,7 @@ VoSummary summarise(const std::vector<const VoRun*>& runs, const swf_vo::Paramet
     addLosses(*run, summary.warnings);
     addRig(*run, parameters, summary.warnings);
     addTurns(*run, summary.warnings);
-    addMotionSensors(*run, summary.warnings);
+    if (!run->frames.empty()) addMotionFaults(run->motion, run->input, run->frames.front().stamp, summary.warnings);
   }
   const auto mean = [](double sum, std::int64_t count) { return count > 0 ? sum / static_cast<double>(count) : 0.0; };
   summary.features_mean = mean(features, accepted);
@@ -209,7 +180,7 @@ Json toJson(const VoSummary& summary) {
     json[std::string("right_turn_") + name + "_deg"] = radians * kRigDegrees;
   json["shutter_delay_ms"] = 1e3 * summary.rig.delay_s;
   json["shutter_delay_sigma_ms"] = 1e3 * summary.rig.delay_sigma_s;
-  addMotion(summary, json);
+  addMotion(summary.motion, summary.rig.scale_sigma, json);
   Json& statuses = json["status_counts"] = Json::object();
   for (const char* name : {"OK", "DEGRADED", "LOST", "RECOVERED"}) statuses[name] = summary.status_counts.at(name);
   Json& reasons = json["reason_counts"] = Json::object();

@@ -39,6 +39,8 @@ class Agreement {
   void restart(bool was_trusted);
 
   Verdict verdict() const;
+  /// Returns whether the steps since the last restart are too short for a verdict.
+  bool isUntested() const;
   /// Returns the steps of the last seconds.
   const std::vector<ComparedStep>& steps() const { return steps_; }
 

@@ -37,9 +37,9 @@ class MotionSensors {
  public:
   struct Options {
     std::string reference = "images";  ///< for messages: "images", "sweeps"
-    /// Whether a sensor is used before any motion confirmed it, with the standard deviations of its priors; false: it
-    /// predicts nothing until then.
-    bool uses_unconfirmed = false;
+    /// Whether wheels are used, with the standard deviations of their priors, as long as they could not be compared
+    /// with the reference; false: like the gyroscope, they predict nothing until a motion confirmed them.
+    bool uses_untested_wheels = false;
   };
   MotionSensors();
   explicit MotionSensors(Options options);
@@ -99,7 +99,8 @@ class MotionSensors {
   };
 
   bool isInUse(const Sensor& sensor) const {
-    return sensor.is_used || (options_.uses_unconfirmed && !sensor.is_left_out);
+    if (sensor.is_used || &sensor == &gyroscope_) return sensor.is_used;
+    return options_.uses_untested_wheels && !sensor.is_left_out && sensor.agreement.isUntested();
   }
   bool mayPredict(const Sensor& sensor) const {
     return isInUse(sensor) && !sensor.is_contradicted && !sensor.stream.isEmpty() && !sensor.stream.isStuck();

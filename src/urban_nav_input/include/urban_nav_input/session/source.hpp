@@ -14,6 +14,7 @@
 #include "urban_nav_core/laser/cloud/point_times.hpp"
 #include "urban_nav_core/laser/scan.hpp"
 #include "urban_nav_core/laser/sweep.hpp"
+#include "urban_nav_core/types/motion_input.hpp"
 #include "urban_nav_core/types/specific_force.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 #include "urban_nav_input/examination/finding.hpp"
@@ -35,6 +36,9 @@ struct SweepInput {
   urban_nav_core::Pose T_base_lidar;
   urban_nav_core::Sweep sweep;
   bool is_planar = false;  ///< of a planar laser; the scan is also among the scans
+  /// Motion since the sweep before this one, of any LiDAR, up to the end of this one, in order of time; empty without
+  /// motion sensors.
+  std::vector<urban_nav_core::MotionInput> inputs = {};
 };
 
 /// A depth image of one of the depth cameras of the robot, not decoded.
