@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "laser_odometry/motion_aided_odometry.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "motion.hpp"
@@ -10,6 +11,7 @@
 namespace laser_odometry {
 
 using urban_nav_core::Health;
+using urban_nav_core::MeasuredStep;
 using urban_nav_core::MotionInput;
 using urban_nav_core::Reckoned;
 using urban_nav_core::StampNs;
@@ -18,10 +20,13 @@ using urban_nav_core::Sweep;
 namespace {
 
 constexpr const char* kAidedStateName = "laser odometry with motion sensors";
-constexpr std::uint32_t kAidedStateVersion = 1;
+constexpr std::uint32_t kAidedStateVersion = 2;
 // Squared cosine between the direction of travel, or the rotations, and the free directions up to which a pose is
 // measured: free directions vary by about 5 deg.
 constexpr double kMeasured = 0.03;
+// Time between sweeps that leave a direction free and those from which sensors are calibrated, s: surfaces that fade
+// from view are few and far, and their errors exceed their covariances. As long as the window of the images.
+constexpr double kFading = 1.0;
 
 urban_nav_core::MotionSensors makeSensors() {
   urban_nav_core::MotionSensors::Options options;
@@ -119,7 +124,7 @@ class MotionAidedOdometry::Implementation {
     step.measures_forward = measured.forward && measured_.forward;
     sensors_.addFrame(step.frame, seconds, measured.turn, false);
     if (step.health == Health::Ok && !is_lost_ && seconds > 0.0) sensors_.check(step);
-    sensors_.learn(step);
+    settle(step, measured);
     forward_unmeasured_ = measured.forward ? 0.0 : forward_unmeasured_ + seconds;
     measured_ = measured;
     is_lost_ = step.health == Health::Lost;
@@ -127,9 +132,29 @@ class MotionAidedOdometry::Implementation {
     q_odom_base_ = pose.T_odom_base.q();
   }
 
+  /// Calibrates the sensors by the steps that are far enough from sweeps with free directions.
+  void settle(MeasuredStep step, const Measured& measured) {
+    turn_free_ = measured.turn ? turn_free_ : step.stamp;
+    forward_free_ = measured.forward ? forward_free_ : step.stamp;
+    pending_.push_back(std::move(step));
+    const auto fades = [](StampNs free, StampNs stamp) {
+      return free != 0 && std::abs(urban_nav_core::secondsBetween(free, stamp)) < kFading;
+    };
+    for (MeasuredStep& each : pending_) {
+      each.measures_turn = each.measures_turn && !fades(turn_free_, each.stamp);
+      each.measures_forward = each.measures_forward && !fades(forward_free_, each.stamp);
+    }
+    const StampNs newest = pending_.back().stamp;
+    auto next = pending_.begin();
+    for (; next != pending_.end() && urban_nav_core::secondsBetween(next->stamp, newest) >= kFading; ++next)
+      sensors_.learn(*next);
+    pending_.erase(pending_.begin(), next);
+  }
+
   void archive(urban_nav_core::Archive& archive) {
     Pose last(q_odom_base_, Vector3d::Zero());
     archive(sensors_, frames_, stamp_, last, measured_.turn, measured_.forward, is_lost_, forward_unmeasured_);
+    archive(turn_free_, forward_free_, pending_);
     q_odom_base_ = last.q();
     archive.require(frames_ >= 0 && forward_unmeasured_ >= 0.0, "negative number");
   }
@@ -141,7 +166,9 @@ class MotionAidedOdometry::Implementation {
   urban_nav_core::Quaterniond q_odom_base_ = urban_nav_core::Quaterniond::Identity();
   Measured measured_;
   bool is_lost_ = false;
-  double forward_unmeasured_ = 0.0;  ///< s before the last sweep
+  StampNs turn_free_ = 0, forward_free_ = 0;  ///< newest sweep that left these parts free; 0: none
+  std::vector<MeasuredStep> pending_;         ///< in order of time
+  double forward_unmeasured_ = 0.0;           ///< s before the last sweep
 };
 
 MotionAidedOdometry::MotionAidedOdometry(const Parameters& parameters, const Pose& T_base_lidar, Scanner scanner)

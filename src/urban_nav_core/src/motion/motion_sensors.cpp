@@ -62,6 +62,12 @@ Vector6d smoothTwist(const TwistStream& stream, StampNs stamp) {
 
 }  // namespace
 
+void archive(Archive& archive, MeasuredStep& step) {
+  Pose end(step.q_odom_base, Vector3d::Zero());
+  archive(step.frame, step.stamp, step.step, end, step.health, step.measures_turn, step.measures_forward);
+  step.q_odom_base = end.q();
+}
+
 MotionSensors::MotionSensors() : MotionSensors(Options()) {}
 
 MotionSensors::MotionSensors(Options options)

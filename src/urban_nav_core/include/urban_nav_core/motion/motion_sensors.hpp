@@ -28,6 +28,8 @@ struct MeasuredStep {
   /// Whether both ends determine the rotation, and the translation along x.
   bool measures_turn = true, measures_forward = true;
 };
+/// Reads or writes all members but the constants of the step.
+void archive(Archive& archive, MeasuredStep& step);
 
 /// Estimates bias, scales and time offsets of a gyroscope and wheels from steps measured by the reference only
 /// (odometry by images or sweeps), excludes a sensor that contradicts them, and predicts the motion with its
