@@ -63,7 +63,7 @@ class DenseStereoStage {
 DenseStereoStage::DenseStereoStage(Node& node) : node_(node) {
   std::tie(nodelet_, parameters_) = node.parameters(nodeletTable(), table());
   node.setQueueSize(nodelet_.queue_size, nodelet_.drain_s);
-  publisher_ = std::make_unique<Publisher>(node);
+  publisher_ = std::make_unique<Publisher>(node, parameters_.keyframe_interval);
   stereo_ = std::make_unique<LiveStereo>(parameters_);
   accelerometer_ =
       std::make_unique<urban_nav_ros::Accelerometer>(nodelet_.base_frame, node.sensors().corrections().accelerometer);
@@ -108,7 +108,7 @@ void DenseStereoStage::begin(const StereoSessions::Camera& camera) {
 
 void DenseStereoStage::process(urban_nav_ros::DecodedPair& pair) {
   for (const std::string& fault : pair.faults) node_.logWarning("image", fault);
-  if (!nodelet_.always && !publisher_->isWanted()) return stereo_->skip();
+  if (!nodelet_.always && !publisher_->isWanted(pair.assembled.pair.stamp)) return stereo_->skip();
   turns_.correct(pair.assembled);
   publisher_->publish(stereo_->process(pair.assembled.pair), pair.assembled.pair);
 }

@@ -47,7 +47,8 @@ const Table<Parameters>& table() {
           {"keyframe_angle", &P::keyframe_angle, "rad", 0.175, 0.0, 7.0, {},
            "Rotation between pairs that map matches densely.", "budget of map", {}, Audience::Experts},
           {"keyframe_interval", &P::keyframe_interval, "s", 0.25, 0.0, 60.0, {},
-           "Minimum time between pairs that map matches densely.", "budget of map", {}, Audience::Experts},
+           "Minimum time between pairs that map matches densely, and between live samples for the map.",
+           "budget of map", {}, Audience::Experts},
       });
   return rows;
 }

@@ -1,25 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sensor_msgs/PointCloud2.h>
 #include <std_srvs/Trigger.h>
-#include <unistd.h>
 #include <urban_nav_msgs/FileCommand.h>
 #include <urban_nav_msgs/MetricClosure.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <memory>
+#include <optional>
+#include <set>
 #include <tuple>
 #include <variant>
 
 #include "live/live_map.hpp"
+#include "live/live_report.hpp"
 #include "live/nodelet_parameters.hpp"
 #include "map_messages.hpp"
 #include "urban_nav_live/beam_faults.hpp"
 #include "urban_nav_registration/parameters.hpp"
 #include "urban_nav_ros/closure.hpp"
+#include "urban_nav_ros/depth_inputs.hpp"
+#include "urban_nav_ros/depth_view.hpp"
 #include "urban_nav_ros/extrinsics.hpp"
 #include "urban_nav_ros/graph.hpp"
+#include "urban_nav_ros/grid_message.hpp"
 #include "urban_nav_ros/laser_scan.hpp"
 #include "urban_nav_ros/point_cloud.hpp"
 #include "urban_nav_ros/robot_topics.hpp"
@@ -34,30 +39,10 @@ using urban_nav_ros::InfoInput;
 
 namespace {
 
+constexpr std::uint32_t kViewQueue = 5;
 constexpr double kPointBytes = 50.0, kTileBytes = 100'000.0;  // per point; least amount per round
 constexpr int kRestPerWork = 3;                               // pause after a cloud, in units of its computing time
 constexpr double kConstraintPeriods = 5.0;                    // between two searches for constraints, at least
-
-enum class MapFault { None = 0, NoOdometry = 1, NoLasers = 2, NoLaserPlace = 3, NotStored = 4 };
-
-const char* toString(MapFault fault) {
-  switch (fault) {
-    case MapFault::None: return "None";
-    case MapFault::NoOdometry: return "NoOdometry";
-    case MapFault::NoLasers: return "NoLasers";
-    case MapFault::NoLaserPlace: return "NoLaserPlace";
-    case MapFault::NotStored: break;
-  }
-  return "NotStored";
-}
-
-std::string temporaryStore(const std::string& node) {
-  std::string name = node;
-  for (char& letter : name)
-    if (letter == '/') letter = '_';
-  return (std::filesystem::temp_directory_path() / ("laser_mapper" + name + "_" + std::to_string(::getpid()) + ".db"))
-      .string();
-}
 
 }  // namespace
 
@@ -68,7 +53,8 @@ class LaserMapperStage {
   static constexpr const char* topic = "laser map";
   using Input = std::variant<ImageInput, InfoInput, tf2_msgs::TFMessageConstPtr, sensor_msgs::LaserScanConstPtr,
                              sensor_msgs::PointCloud2ConstPtr, urban_nav_core::StampedPose, urban_nav_core::SessionStep,
-                             urban_nav_core::GraphUpdate, urban_nav_core::MetricClosure>;
+                             urban_nav_core::GraphUpdate, urban_nav_core::MetricClosure, urban_nav_ros::DepthMessage,
+                             urban_nav_msgs::DepthViewConstPtr>;
   using Node = urban_nav_ros::StageNodeWith<Input>;
 
   explicit LaserMapperStage(Node& node);
@@ -83,6 +69,10 @@ class LaserMapperStage {
   using Clock = std::chrono::steady_clock;
   void addScan(const sensor_msgs::LaserScan& message);
   void addSweep(const std::string& frame, const urban_nav_core::Sweep& sweep);
+  void addDepth(const urban_nav_ros::DepthInputs::Image& image);
+  void addView(const urban_nav_msgs::DepthView& message);
+  /// Returns the mounting of a sensor, or notes that it is unknown.
+  std::optional<urban_nav_core::Pose> findPlace(const std::string& frame);
   void publish();
   void publishCloud(const std::vector<MapPoint>& points);
   void publishTiles();
@@ -90,6 +80,9 @@ class LaserMapperStage {
   /// Returns when the next task may begin after one that began at `begin`.
   static Clock::time_point nextTime(Clock::time_point begin, double period);
   bool isWanted() const;
+  bool areLayersWanted() const;
+  /// Publishes the layers for planners within the bandwidth.
+  void publishLayers();
   std::string save(const std::string& path);
 
   Node& node_;
@@ -97,15 +90,18 @@ class LaserMapperStage {
   Parameters parameters_;
   std::unique_ptr<LiveMap> map_;
   urban_nav_ros::StaticTransforms transforms_;
-  ros::Publisher cloud_, tiles_, quality_, constraints_;
+  ros::Publisher cloud_, tiles_, quality_, constraints_, grid_, traversability_, terrain_;
+  ros::Subscriber views_;  // depths of dense stereo
   std::uint32_t tile_subscribers_ = 0;
-  std::string unplaced_, store_fault_;
+  std::set<std::string> unplaced_;  ///< frames of sensors with unknown mounting
+  std::string store_fault_;
   urban_nav_ros::SweepFeeds sweeps_{
       {[this](const std::string& frame, const urban_nav_core::Sweep& sweep) { addSweep(frame, sweep); },
        [this] { node_.gate().countInvalid(); }}};
+  urban_nav_ros::DepthInputs depth_{[this](const auto& image) { addDepth(image); }};
   urban_nav_live::BeamFaults beams_;
-  bool changed_ = false, are_constraints_due_ = false;
-  Clock::time_point due_, constraints_due_, tiles_sent_ = Clock::now();
+  bool changed_ = false, are_constraints_due_ = false, have_layers_changed_ = false;
+  Clock::time_point due_, constraints_due_, layers_due_, tiles_sent_ = Clock::now();
   double seconds_ = 0.0;  ///< computing time of the last cloud
 };
 
@@ -118,12 +114,21 @@ LaserMapperStage::LaserMapperStage(Node& node) : node_(node) {
   cloud_ = node.nh().advertise<sensor_msgs::PointCloud2>(urban_nav_ros::topics::kMapCloud, 1, true);
   tiles_ = node.nh().advertise<urban_nav_msgs::MapTile>(urban_nav_ros::topics::kMapTiles, 100);
   quality_ = node.nh().advertise<urban_nav_msgs::MapQuality>(urban_nav_ros::topics::kMapQuality, 1, true);
+  grid_ = node.nh().advertise<nav_msgs::OccupancyGrid>(urban_nav_ros::topics::kMapGrid, 1, true);
+  traversability_ = node.nh().advertise<nav_msgs::OccupancyGrid>(urban_nav_ros::topics::kMapTraversability, 1, true);
+  terrain_ = node.nh().advertise<sensor_msgs::PointCloud2>(urban_nav_ros::topics::kMapTerrain, 1, true);
   node.advertiseService<urban_nav_msgs::FileCommand>("save", [this](const auto& request, auto& response) {
     response.message = node_.ask([&] { return save(request.path); });
   });
   node.advertiseService<std_srvs::Trigger>(
       "clear", [this](const auto&, auto& response) { response.message = node_.ask([this] { return reset(); }); });
   subscribeRobot(node, nodelet_.queue_size, false, false, true);
+  urban_nav_ros::subscribeDepth(node, static_cast<std::size_t>(nodelet_.depth_cameras), nodelet_.compressed_depth);
+  if (parameters_.stereo)
+    views_ = node.nh().subscribe<urban_nav_msgs::DepthView>(
+        urban_nav_ros::topics::kDepthView, kViewQueue,
+        boost::function<void(const urban_nav_msgs::DepthViewConstPtr&)>(
+            [this](const urban_nav_msgs::DepthViewConstPtr& view) { node_.push(Input(view)); }));
   urban_nav_ros::TopicOptions options;
   options.is_monitored = options.is_paused = false;
   options.queue = nodelet_.queue_size;
@@ -146,6 +151,8 @@ void LaserMapperStage::handle(Input& input) {
     else if (const auto* update = std::get_if<urban_nav_core::GraphUpdate>(&input)) map_->addGraph(*update);
     else if (const auto* closure = std::get_if<urban_nav_core::MetricClosure>(&input)) map_->addClosure(*closure);
     else if (const auto* step = std::get_if<urban_nav_core::SessionStep>(&input)) map_->addStep(*step);
+    else if (const auto* depth = std::get_if<urban_nav_ros::DepthMessage>(&input)) depth_.handle(*depth);
+    else if (const auto* view = std::get_if<urban_nav_msgs::DepthViewConstPtr>(&input)) addView(**view);
     changed_ = are_constraints_due_ = true;  // scans may arrive after the poses of their time, which may be the last
   } catch (const urban_nav_core::Error& error) {
     store_fault_ = error.what();
@@ -157,21 +164,37 @@ void LaserMapperStage::addScan(const sensor_msgs::LaserScan& message) {
   if (!planar) return node_.gate().countInvalid();
   beams_.add(*planar);
   const std::string& frame = message.header.frame_id;
-  if (!map_->isPlaced(frame)) {
-    const auto T_base_laser = transforms_.lookup(nodelet_.base_frame, frame);
-    if (T_base_laser) map_->placeLaser(frame, *T_base_laser);
-    unplaced_ = T_base_laser ? "" : frame;
-  }
+  if (!map_->sensors().isPlaced(frame))
+    if (const auto T_base_laser = findPlace(frame)) map_->sensors().placeLaser(frame, *T_base_laser);
+  if (map_->sensors().hasTiltedLaser()) views_.shutdown();  // dense stereo need not be computed for the map
   map_->addScan(frame, urban_nav_core::toScan(*planar));
 }
 
 void LaserMapperStage::addSweep(const std::string& frame, const urban_nav_core::Sweep& sweep) {
-  if (!map_->isPlaced(frame)) {
-    const auto T_base_lidar = transforms_.lookup(nodelet_.base_frame, frame);
-    if (T_base_lidar) map_->placeLidar(frame, *T_base_lidar);
-    unplaced_ = T_base_lidar ? "" : frame;
-  }
+  if (!map_->sensors().isPlaced(frame))
+    if (const auto T_base_lidar = findPlace(frame)) map_->sensors().placeLidar(frame, *T_base_lidar);
   map_->addSweep(frame, sweep);
+}
+
+void LaserMapperStage::addDepth(const urban_nav_ros::DepthInputs::Image& image) {
+  if (!map_->sensors().isPlaced(image.frame))
+    if (const auto T_base_camera = findPlace(image.frame))
+      map_->sensors().placeDepthCamera(image.frame, image.pinhole, *T_base_camera);
+  map_->addDepth(image.frame, image.stamp, image.decode);
+}
+
+void LaserMapperStage::addView(const urban_nav_msgs::DepthView& message) {
+  const std::optional<urban_nav_core::DepthSamples> view = urban_nav_ros::toDepthSamples(message);
+  if (!view) return node_.gate().countInvalid();
+  if (const auto T_base_camera = findPlace(message.header.frame_id))
+    map_->addView(urban_nav_ros::toStampNs(message.header.stamp), *view, *T_base_camera);
+}
+
+std::optional<urban_nav_core::Pose> LaserMapperStage::findPlace(const std::string& frame) {
+  const auto T_base_sensor = transforms_.lookup(nodelet_.base_frame, frame);
+  if (T_base_sensor) unplaced_.erase(frame);
+  else unplaced_.insert(frame);
+  return T_base_sensor;
 }
 
 bool LaserMapperStage::idle() {
@@ -179,6 +202,7 @@ bool LaserMapperStage::idle() {
   node_.publishStatus(now.status, now.reason_name, map_->newest());
   publishTiles();
   publishConstraints();
+  publishLayers();
   if (!changed_ || !isWanted() || Clock::now() < due_) return false;
   const Clock::time_point begin = Clock::now();
   try {
@@ -217,7 +241,12 @@ void LaserMapperStage::publishConstraints() {
 }
 
 bool LaserMapperStage::isWanted() const {
-  return cloud_.getNumSubscribers() + tiles_.getNumSubscribers() + quality_.getNumSubscribers() > 0;
+  return areLayersWanted() ||
+         cloud_.getNumSubscribers() + tiles_.getNumSubscribers() + quality_.getNumSubscribers() > 0;
+}
+
+bool LaserMapperStage::areLayersWanted() const {
+  return grid_.getNumSubscribers() + traversability_.getNumSubscribers() + terrain_.getNumSubscribers() > 0;
 }
 
 void LaserMapperStage::publish() {
@@ -225,6 +254,35 @@ void LaserMapperStage::publish() {
   if (cloud_.getNumSubscribers() > 0 && !points.empty()) publishCloud(points);
   if (quality_.getNumSubscribers() > 0)
     quality_.publish(toMapQualityMessage(map_->measureQuality(), nodelet_.map_frame, map_->newest()));
+  have_layers_changed_ = true;
+}
+
+void LaserMapperStage::publishLayers() {
+  if (!have_layers_changed_ || !areLayersWanted() || Clock::now() < layers_due_) return;
+  const Clock::time_point begin = Clock::now();
+  const std::optional<LiveLayers> layers = map_->makeLayers(nodelet_.layer_radius);
+  have_layers_changed_ = false;
+  if (!layers) return;
+  std::size_t bytes = 0;
+  const Raster& cells = layers->elevation;
+  const urban_nav_ros::GridCells places{cells.width, cells.height, cells.x0, cells.y0, cells.cell};
+  const auto publishGrid = [&](const ros::Publisher& publisher, const std::vector<std::int8_t>& values) {
+    if (publisher.getNumSubscribers() == 0) return;
+    publisher.publish(urban_nav_ros::toGridMessage(places, values, nodelet_.map_frame, map_->newest()));
+    bytes += values.size();
+  };
+  publishGrid(grid_, layers->occupancy);
+  publishGrid(traversability_, layers->traverse_cost);
+  if (terrain_.getNumSubscribers() > 0) {
+    sensor_msgs::PointCloud2 terrain = urban_nav_ros::toPointCloudMessage(terrainFields(), terrainPoints(*layers));
+    terrain.header.frame_id = nodelet_.map_frame;
+    terrain.header.stamp = urban_nav_ros::toRosTime(map_->newest());
+    terrain.is_dense = 0U;
+    terrain_.publish(terrain);
+    bytes += terrain.data.size();
+  }
+  const double seconds = static_cast<double>(bytes) / (1e6 * nodelet_.tile_bandwidth);
+  layers_due_ = nextTime(begin, std::max(seconds, nodelet_.period));
 }
 
 /// Publishes changes within the bandwidth; all tiles to a new subscriber.
@@ -258,39 +316,23 @@ void LaserMapperStage::publishCloud(const std::vector<MapPoint>& points) {
 
 std::string LaserMapperStage::reset() {
   map_->clear();
+  have_layers_changed_ = false;
   return "the map is empty";
 }
 
 urban_nav_live::StageReport LaserMapperStage::report() const {
   const urban_nav_live::TopicMonitor& monitor = node_.monitor();
-  const std::string odometry = monitor.fault(urban_nav_ros::topic_groups::kOdometry);
-  const std::string lasers = monitor.fault(urban_nav_ros::topic_groups::kLasers);
-  MapFault fault = MapFault::None;
-  std::string sentence;
-  const auto set = [&](MapFault as, const std::string& text) {
-    if (text.empty() || fault != MapFault::None || node_.gate().isPaused()) return;
-    fault = as;
-    sentence = text;
-  };
-  set(MapFault::NotStored, store_fault_);
-  set(MapFault::NoOdometry, odometry);
-  set(MapFault::NoLasers, sweeps_.fault());
-  if (map_->counts().sweeps == 0) set(MapFault::NoLasers, lasers);
-  if (!unplaced_.empty()) set(MapFault::NoLaserPlace, "no static tf from " + nodelet_.base_frame + " to " + unplaced_);
-  urban_nav_live::StageReport report;
-  if (fault != MapFault::None) report.status = {urban_nav_core::Health::Degraded, static_cast<int>(fault), sentence};
-  report.reason_name = toString(fault);
-  report.is_error = fault == MapFault::NotStored;
-  const LiveMap::Counts& counts = map_->counts();
-  report.add("scans", counts.scans);
-  report.add("sweeps stored", counts.sweeps);
-  report.add("scans and sweeps of lasers without a pose on the robot", counts.scans_unplaced);
-  report.add("poses of odometry", counts.poses);
-  report.add("revisions of the graph missed", counts.updates_missed);
+  MapFaults faults;
+  faults.store = store_fault_;
+  faults.odometry = monitor.fault(urban_nav_ros::topic_groups::kOdometry);
+  faults.clouds = sweeps_.fault();
+  faults.depth = depth_.fault();
+  if (!unplaced_.empty()) faults.places = "no static tf from " + nodelet_.base_frame + " to " + *unplaced_.begin();
+  faults.lasers = monitor.fault(urban_nav_ros::topic_groups::kLasers);
+  faults.is_paused = node_.gate().isPaused();
+  const LiveMap::Counts counts = map_->counts();
+  urban_nav_live::StageReport report = reportOnMap(counts, faults);
   beams_.addTo(report);
-  report.add("points", counts.points);
-  report.add("chunks", counts.chunks);
-  report.add("chunks rendered last", counts.chunks_rendered);
   report.add("time of the last cloud (s)", seconds_);
   if (nodelet_.live_constraints) {
     report.add("constraints from planes", counts.constraints);

@@ -12,6 +12,7 @@
 #include "urban_nav_core/types/frames.hpp"
 #include "urban_nav_store/table_store.hpp"
 #include "urban_nav_store/tables/depth_image.hpp"
+#include "urban_nav_store/tables/depth_view.hpp"
 #include "urban_nav_store/tables/ground_view.hpp"
 #include "urban_nav_store/tables/mounted_lidar.hpp"
 
@@ -29,23 +30,27 @@ const std::string kLaserRole = "laser";
 constexpr const char* kDepthRole = "depth";
 constexpr BeamNoise kLidarNoise{0.02F, 1.0F, 0.005F, 0.002F};  // data sheet of the HDL-64E: 2 cm, 2 mrad
 
-/// Returns the frame of a depth camera; nullopt if no image of it is stored.
-std::optional<std::string> findDepthFrame(Store& store, const SessionId& session, const std::string& role) {
+/// Returns the earliest row with the members of the key but the stamp.
+template <typename Row>
+std::optional<Row> findFirst(Store& store, Row key) {
   constexpr urban_nav_core::StampNs kEver = std::numeric_limits<urban_nav_core::StampNs>::max();
-  urban_nav_store::TableStore<urban_nav_store::DepthImage> images(store);
-  urban_nav_store::DepthImage key;
-  key.session = session;
-  key.role = role;
-  const std::vector<urban_nav_core::StampNs> stamps = images.keysBetween(key, 0, kEver);
+  const urban_nav_store::TableStore<Row> rows(store);
+  const std::vector<urban_nav_core::StampNs> stamps = rows.keysBetween(key, 0, kEver);
   if (stamps.empty()) return std::nullopt;
   key.stamp = stamps.front();
-  const auto first = images.get(key);
-  return first ? std::optional(first->frame) : std::nullopt;
+  return rows.get(key);
+}
+
+std::optional<urban_nav_store::DepthImage> findDepthImage(Store& store, const SessionId& session, std::size_t camera) {
+  urban_nav_store::DepthImage key;
+  key.session = session;
+  key.role = depthRole(camera);
+  return findFirst(store, key);
 }
 
 bool hasDepth(Store& store, const SessionId& session) {
   for (std::size_t camera = 0; camera < kMostDepthCameras; ++camera)
-    if (findDepthFrame(store, session, depthRole(camera))) return true;
+    if (findDepthImage(store, session, camera)) return true;
   return false;
 }
 
@@ -96,8 +101,8 @@ std::vector<SensorName> storedSensors(Store& store, const std::vector<SessionId>
     for (const urban_nav_store::MountedLidar& lidar : lidars(store, session))
       names.push_back({lidarSensor(lidar.role), lidar.role, lidar.frame});
     for (std::size_t camera = 0; camera < kMostDepthCameras; ++camera)
-      if (const auto frame = findDepthFrame(store, session, depthRole(camera)))
-        names.push_back({depthSensor(camera), depthRole(camera), *frame});
+      if (const auto image = findDepthImage(store, session, camera))
+        names.push_back({depthSensor(camera), depthRole(camera), image->frame});
     if (hasStereo(store, session)) names.push_back({kStereoSensor, "stereo", frames::kStereoLeft});
   }
   const auto key = [](const SensorName& name) { return std::tie(name.id, name.role, name.frame); };
@@ -113,6 +118,11 @@ std::map<std::uint8_t, urban_nav_core::Pose> sensorPlaces(Store& store, const Se
   for (std::size_t i = 0; i < lasers.size(); ++i) places[planarSensor(lasers[i].frame, i)] = lasers[i].T_base_laser;
   for (const urban_nav_store::MountedLidar& lidar : lidars(store, session))
     places[lidarSensor(lidar.role)] = lidar.T_base_lidar;
+  for (std::size_t camera = 0; camera < kMostDepthCameras; ++camera)
+    if (const auto image = findDepthImage(store, session, camera)) places[depthSensor(camera)] = image->T_base_camera;
+  urban_nav_store::DepthView key;
+  key.session = session;
+  if (const auto view = findFirst(store, key)) places[kStereoSensor] = view->T_base_camera;
   return places;
 }
 

@@ -8,6 +8,7 @@ from contextlib import closing
 from pathlib import Path
 
 import rospy
+from sensor_msgs.msg import PointCloud2
 from urban_nav_msgs.msg import PlaceBelief, TopologicalClosure
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -123,9 +124,10 @@ class BagLaunch(LaunchCase):
         with closing(sqlite3.connect(f"file:{store}?mode=ro", uri=True)) as file:
             self.assertEqual(file.execute("SELECT COUNT(*) FROM node").fetchone()[0], len(self.listener.frames))
 
-    def test_places_without_panoramas_are_those_of_the_left_camera(self):
-        beliefs, closures = [], []
-        self.listener.subscribers += [rospy.Subscriber("/places/belief", PlaceBelief, beliefs.append),
+    def test_a_stereo_camera_alone_gives_places_and_a_map(self):
+        beliefs, closures, clouds = [], [], []
+        self.listener.subscribers += [rospy.Subscriber("/map/cloud", PointCloud2, clouds.append),
+                                      rospy.Subscriber("/places/belief", PlaceBelief, beliefs.append),
                                       rospy.Subscriber("/places/closure", TopologicalClosure, closures.append)]
         self.play(loop="true", paused="true")
         self.expect(lambda: {"/stereo/left/image_rect", "/vo/odometry"} <= set(connections("/fabmap_node")),
@@ -134,6 +136,7 @@ class BagLaunch(LaunchCase):
         self.expect(lambda: closures, lambda: f"no closure between two rounds, by {len(beliefs)} beliefs")
         self.assertNotEqual(closures[0].a.session, closures[0].b.session)
         self.assertLess(abs((closures[0].a.stamp - closures[0].b.stamp).to_sec()), 1.0, "the same part of the recording")
+        self.expect(lambda: clouds and max(cloud.width for cloud in clouds) > 1000, lambda: f"points: {[cloud.width for cloud in clouds]}")
 
     def test_rviz_shows_what_is_there(self):
         self.play(loop="true")

@@ -41,7 +41,7 @@ struct SensorName {
 std::vector<SensorName> storedSensors(urban_nav_store::Store& store,
                                       const std::vector<urban_nav_store::SessionId>& sessions);
 
-/// Returns the poses of a session's lasers and LiDARs on the robot, with the adopted calibration, by id.
+/// Returns the poses of a session's sensors on the robot by id, those of planar lasers with the adopted calibration.
 std::map<std::uint8_t, urban_nav_core::Pose> sensorPlaces(urban_nav_store::Store& store,
                                                           const urban_nav_store::SessionId& session);
 

@@ -7,25 +7,22 @@
 
 #include "laser_mapper/laser_map.hpp"
 #include "laser_mapper/map_files.hpp"
+#include "laser_mapper/sensors.hpp"
 #include "urban_nav_core/types/error.hpp"
-#include "urban_nav_store/table_store.hpp"
-#include "urban_nav_store/tables/lidar_sweep.hpp"
-#include "urban_nav_store/tables/mounted_lidar.hpp"
 
 namespace laser_mapper {
 
 using urban_nav_core::Pose;
 using urban_nav_core::StampNs;
 using urban_nav_core::Trajectory;
-using urban_nav_store::LidarSweep;
-using urban_nav_store::MountedLidar;
-using urban_nav_store::TableStore;
 
 namespace {
 
 constexpr const char* kLiveSession = "00000000000000000000";
-constexpr int kOdometryStream = 0, kStepStream = 1, kFirstLaserStream = 2;
+constexpr const char* kStereoViews = "";  // name of the stream of dense stereo; those of sensors are frames
+constexpr int kOdometryStream = 0, kStepStream = 1, kFirstSensorStream = 2;
 constexpr StampNs kOdometryPatience = 60'000'000'000;  // ns of scans of a new session that wait for its odometry
+constexpr StampNs kLongestGapOfBeams = 500'000'000;    // between poses from which the origin of a beam is interpolated
 constexpr StampNs kFewSeconds = 5'000'000'000;         // from a pose of odometry until closures near it are measured
 
 /// Returns the poses of a trajectory at the given stamps.
@@ -55,7 +52,10 @@ std::size_t pointsDigest(const std::vector<MapPoint>& points) {
 }  // namespace
 
 LiveMap::LiveMap(const Parameters& parameters, std::string store_path, double cloud_half_length)
-    : parameters_(parameters), path_(std::move(store_path)), cloud_half_length_(cloud_half_length) {
+    : parameters_(parameters),
+      path_(std::move(store_path)),
+      cloud_half_length_(cloud_half_length),
+      sensors_(kLiveSession) {
   open();
   sortByRound();
 }
@@ -68,8 +68,8 @@ void LiveMap::sortByRound() {
       options, urban_nav_live::RoundGate<Add>::Listener{[](Add& add) { add(); }, [this] { clear(); }});
 }
 
-int LiveMap::streamNumber(const std::string& laser) {
-  return streams_.try_emplace(laser, kFirstLaserStream + static_cast<int>(streams_.size())).first->second;
+int LiveMap::streamNumber(const std::string& frame) {
+  return streams_.try_emplace(frame, kFirstSensorStream + static_cast<int>(streams_.size())).first->second;
 }
 
 LiveMap::~LiveMap() {
@@ -85,18 +85,10 @@ void LiveMap::open() {
   urban_nav_store::removeStore(path_);
   store_ = std::make_unique<urban_nav_store::Store>(path_, urban_nav_store::Access::Write);
   store_->sessions().put(urban_nav_store::Session{kLiveSession, "live", "", "", 0, false});
-  storePlaces();
-}
-
-void LiveMap::storePlaces() {
-  for (const auto& [frame, T_base_laser] : placed_)
-    store_->sessions().put(kLiveSession, urban_nav_store::Extrinsic{frame, T_base_laser});
-  for (const auto& [frame, lidar] : lidars_)
-    TableStore<MountedLidar>(*store_).put({kLiveSession, lidar.role, frame, lidar.T_base_lidar});
+  sensors_.begin(*store_);
 }
 
 void LiveMap::clear() {
-  for (auto& each : lidars_) each.second.spacing = urban_nav_core::TravelSpacing(urban_nav_core::kSweepSpacing);
   open();
   T_odom_base_.clear();
   // The graph may already have sent poses of the new session.
@@ -113,41 +105,37 @@ void LiveMap::clear() {
   counts_ = {};
 }
 
-void LiveMap::placeLaser(const std::string& laser, const Pose& T_base_laser) {
-  if (placed_.emplace(laser, T_base_laser).second) storePlaces();
+void LiveMap::addWhenPlaced(const std::string& frame, StampNs stamp, Add add) {
+  if (sensors_.isPlaced(frame)) rounds_->add(streamNumber(frame), stamp, std::move(add));
+  else sensors_.countUnplaced();
 }
 
-void LiveMap::placeLidar(const std::string& frame, const Pose& T_base_lidar) {
-  Lidar lidar;
-  lidar.role = "points" + std::to_string(lidars_.size());
-  lidar.T_base_lidar = T_base_lidar;
-  if (lidars_.emplace(frame, lidar).second) storePlaces();
+LiveSensors::MaybePose LiveMap::newestPose() const {
+  return T_odom_base_.empty() ? std::nullopt : LiveSensors::MaybePose(T_odom_base_.rbegin()->second);
+}
+
+void LiveMap::addScan(const std::string& frame, const urban_nav_core::Scan& scan) {
+  addWhenPlaced(frame, scan.stamp, [this, frame, scan] { sensors_.put(frame, scan); });
 }
 
 void LiveMap::addSweep(const std::string& frame, const urban_nav_core::Sweep& sweep) {
-  if (lidars_.count(frame) == 0) {
-    ++counts_.scans_unplaced;
-    return;
-  }
-  rounds_->add(streamNumber(frame), sweep.reference, [this, frame, sweep] {
-    Lidar& lidar = lidars_.at(frame);
-    const std::optional<Pose> newest =
-        T_odom_base_.empty() ? std::nullopt : std::optional(T_odom_base_.rbegin()->second);
-    if (!lidar.spacing.takes(sweep.reference, newest)) return;
-    TableStore<LidarSweep>(*store_).put({kLiveSession, lidar.role, sweep.reference, LidarSweep::pack(sweep)});
-    ++counts_.sweeps;
-  });
+  addWhenPlaced(frame, sweep.reference, [this, frame, sweep] { sensors_.put(frame, sweep, newestPose()); });
 }
 
-void LiveMap::addScan(const std::string& laser, const urban_nav_core::Scan& scan) {
-  if (!isPlaced(laser)) {
-    ++counts_.scans_unplaced;
-    return;
-  }
-  rounds_->add(streamNumber(laser), scan.stamp, [this, laser, scan] {
-    store_->scans().put(kLiveSession, laser, scan);
-    ++counts_.scans;
-  });
+void LiveMap::addDepth(const std::string& frame, StampNs stamp, LiveSensors::DecodeDepth decode) {
+  addWhenPlaced(frame, stamp,
+                [this, frame, stamp, decode = std::move(decode)] { sensors_.put(frame, stamp, decode, newestPose()); });
+}
+
+void LiveMap::addView(StampNs stamp, const urban_nav_core::DepthSamples& view, const Pose& T_base_camera) {
+  rounds_->add(streamNumber(kStereoViews), stamp,
+               [this, stamp, view, T_base_camera] { sensors_.put(stamp, view, T_base_camera, newestPose()); });
+}
+
+LiveMap::Counts LiveMap::counts() const {
+  Counts counts = counts_;
+  counts.sensors = sensors_.counts();
+  return counts;
 }
 
 void LiveMap::addOdometry(const urban_nav_core::StampedPose& T_odom_base) {
@@ -250,6 +238,26 @@ void LiveMap::repeatAll() {
   for (auto& [tile, state] : tiles_) state.is_changed = true;
 }
 
+std::optional<LiveLayers> LiveMap::makeLayers(double radius) {
+  const Trajectory T_map_base = trajectory();
+  if (T_map_base.empty() || counts_.points == 0) return std::nullopt;
+  std::vector<urban_nav_core::Vector3d> path;
+  for (const urban_nav_core::StampedPose& pose : T_map_base)
+    if (distanceBetween(pose.pose, T_map_base.back().pose) <= radius) path.push_back(pose.pose.t());
+  const std::map<std::uint8_t, Pose> places = sensorPlaces(*store_, kLiveSession);
+  const auto origin = [&](const MapPoint& point) -> std::optional<urban_nav_core::Vector3d> {
+    const auto place = places.find(point.laser);
+    if (place == places.end()) return std::nullopt;
+    const std::optional<Pose> pose = T_map_base.at(point.stamp, kLongestGapOfBeams);
+    return pose ? std::optional(*pose * place->second.t()) : std::nullopt;
+  };
+  return makeLiveLayers(
+      [this](const std::function<void(const std::vector<MapPoint>&)>& take) {
+        for (const auto& [tile, state] : tiles_) take(state.points);
+      },
+      path, origin);
+}
+
 MapQuality LiveMap::measureQuality() {
   const Trajectory T_map_base = trajectory();
   if (T_map_base.empty() || counts_.chunks == 0) return {};
@@ -300,7 +308,9 @@ void LiveMap::update(LaserMap& map) {
 std::vector<MapPoint> LiveMap::render() {
   std::vector<MapPoint> points;
   const Trajectory T_map_base = trajectory();
-  if (T_map_base.empty() || counts_.scans + counts_.sweeps == 0) return points;
+  const LiveSensors::Counts& stored = sensors_.counts();
+  if (T_map_base.empty() || stored.scans + stored.sweeps + stored.depth_images + stored.stereo_views == 0)
+    return points;
   LaserMap map(parameters_, *store_, {{kLiveSession, &T_map_base, nullptr}});
   update(map);
   std::set<Tile> gone;

@@ -17,10 +17,11 @@
 #include "laser_mapper/quality/odometry_drift.hpp"
 #include "laser_mapper/quality/plane_constraints.hpp"
 #include "laser_mapper/quality/shared_beams.hpp"
+#include "live/live_layers.hpp"
+#include "live/live_sensors.hpp"
 #include "urban_nav_core/laser/scan.hpp"
 #include "urban_nav_core/laser/sweep.hpp"
 #include "urban_nav_core/trajectory/trajectory.hpp"
-#include "urban_nav_core/trajectory/travel_spacing.hpp"
 #include "urban_nav_core/types/closure.hpp"
 #include "urban_nav_core/types/graph_update.hpp"
 #include "urban_nav_core/types/odometry_session.hpp"
@@ -38,9 +39,7 @@ class LiveMap {
  public:
   /// Statistics for the operator.
   struct Counts {
-    std::size_t scans = 0;
-    std::size_t sweeps = 0;                       ///< of 3D LiDARs, as many as the motion of the robot requires
-    std::size_t scans_unplaced = 0;               ///< scans and sweeps of lasers with unknown mounting
+    LiveSensors::Counts sensors;
     std::size_t poses = 0;                        ///< of odometry
     std::size_t points = 0;                       ///< in the last map
     std::size_t chunks = 0, chunks_rendered = 0;  ///< all; in the last render()
@@ -55,11 +54,15 @@ class LiveMap {
   LiveMap(const LiveMap&) = delete;
   LiveMap& operator=(const LiveMap&) = delete;
 
-  bool isPlaced(const std::string& laser) const { return placed_.count(laser) + lidars_.count(laser) != 0; }
-  void placeLaser(const std::string& laser, const urban_nav_core::Pose& T_base_laser);
-  void addScan(const std::string& laser, const urban_nav_core::Scan& scan);
-  void placeLidar(const std::string& frame, const urban_nav_core::Pose& T_base_lidar);
+  /// Returns the sensors, whose mounting must be set before their measurements are added.
+  LiveSensors& sensors() { return sensors_; }
+  const LiveSensors& sensors() const { return sensors_; }
+  void addScan(const std::string& frame, const urban_nav_core::Scan& scan);
   void addSweep(const std::string& frame, const urban_nav_core::Sweep& sweep);
+  void addDepth(const std::string& frame, urban_nav_core::StampNs stamp, LiveSensors::DecodeDepth decode);
+  /// Adds depths of dense stereo, which are used if no planar laser measures surfaces around the robot.
+  void addView(urban_nav_core::StampNs stamp, const urban_nav_core::DepthSamples& view,
+               const urban_nav_core::Pose& T_base_camera);
   void addOdometry(const urban_nav_core::StampedPose& T_odom_base);
   void addGraph(const urban_nav_core::GraphUpdate& update);
   /// Adds a step of odometry between two poses of the graph, which constraints connect. It names the session, to which
@@ -82,6 +85,9 @@ class LiveMap {
   std::vector<ChangedTile> takeChanged(std::size_t most);
   /// Makes takeChanged() return all tiles again.
   void repeatAll();
+  /// Returns the layers for planners of the last map along the path within `radius` (m) of the newest pose; nullopt
+  /// without points.
+  std::optional<LiveLayers> makeLayers(double radius);
   /// Returns the consistency of the passes of the last map.
   MapQuality measureQuality();
   /// Updates the chunks and returns constraints between poses of the graph from planes measured in two passes
@@ -94,14 +100,17 @@ class LiveMap {
   /// Removes all scans and poses.
   void clear();
 
-  const Counts& counts() const { return counts_; }
+  Counts counts() const;
   /// Returns the stamp of the newest pose; 0 without poses.
   urban_nav_core::StampNs newest() const;
 
  private:
   using Add = std::function<void()>;
   void sortByRound();
-  int streamNumber(const std::string& laser);
+  /// Adds a measurement of the sensor when its round has begun.
+  void addWhenPlaced(const std::string& frame, urban_nav_core::StampNs stamp, Add add);
+  LiveSensors::MaybePose newestPose() const;
+  int streamNumber(const std::string& frame);
   void take(const urban_nav_core::SessionStep& step);
   /// Returns whether a pose belongs to this session, as far as odometry has announced it.
   bool isOwn(const std::string& session) const {
@@ -126,15 +135,7 @@ class LiveMap {
   const std::string path_;
   const double cloud_half_length_;
   std::unique_ptr<urban_nav_store::Store> store_;
-  void storePlaces();
-  struct Lidar {
-    std::string role;  ///< "points0", its name in the store
-    urban_nav_core::Pose T_base_lidar;
-    urban_nav_core::TravelSpacing spacing{urban_nav_core::kSweepSpacing};
-  };
-
-  std::map<std::string, urban_nav_core::Pose> placed_;  ///< planar lasers, by frame
-  std::map<std::string, Lidar> lidars_;                 ///< by frame
+  LiveSensors sensors_;
   std::map<urban_nav_core::StampNs, urban_nav_core::Pose> T_odom_base_;
   std::string announced_;        ///< id of the session; empty: not announced by odometry
   std::set<std::string> ended_;  ///< earlier sessions announced by odometry
@@ -147,7 +148,7 @@ class LiveMap {
   std::optional<std::int64_t> revision_;
   std::map<Tile, TileState> tiles_;
   Counts counts_;
-  std::map<std::string, int> streams_;  ///< indices of laser streams
+  std::map<std::string, int> streams_;  ///< indices of the streams of sensors
   std::unique_ptr<urban_nav_live::RoundGate<Add>> rounds_;
 };
 

@@ -12,7 +12,10 @@ struct NodeletParameters {
   std::string base_frame, map_frame;
   double period;          // s
   double tile_bandwidth;  // MB/s
+  double layer_radius;    // m
   bool live_constraints;
+  int depth_cameras;
+  bool compressed_depth;
   int queue_size;  // messages
   double drain_s;  // s
 

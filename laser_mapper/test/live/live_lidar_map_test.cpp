@@ -66,11 +66,11 @@ class LiveLidarMap : public ::testing::Test {
 };
 
 TEST_F(LiveLidarMap, TheWallIsMappedBySweepsThatTheMotionRequires) {
-  EXPECT_FALSE(map_.isPlaced(kSpinning));
-  map_.placeLidar(kSpinning, mountingOfLidar());
-  EXPECT_TRUE(map_.isPlaced(kSpinning));
+  EXPECT_FALSE(map_.sensors().isPlaced(kSpinning));
+  map_.sensors().placeLidar(kSpinning, mountingOfLidar());
+  EXPECT_TRUE(map_.sensors().isPlaced(kSpinning));
   driveAlong(41);
-  EXPECT_NEAR(static_cast<double>(map_.counts().sweeps), 14.0, 1.0) << "one in three steps of 0.1 m";
+  EXPECT_NEAR(static_cast<double>(map_.counts().sensors.sweeps), 14.0, 1.0) << "one in three steps of 0.1 m";
   std::size_t off = 0;
   EXPECT_GT(countWallPoints(off), 1000U);
   EXPECT_EQ(off, 0U);
@@ -78,13 +78,13 @@ TEST_F(LiveLidarMap, TheWallIsMappedBySweepsThatTheMotionRequires) {
 
 TEST_F(LiveLidarMap, SweepsWithoutAMountingAreCounted) {
   driveAlong(5);
-  EXPECT_EQ(map_.counts().scans_unplaced, 5U);
-  EXPECT_EQ(map_.counts().sweeps, 0U);
+  EXPECT_EQ(map_.counts().sensors.unplaced, 5U);
+  EXPECT_EQ(map_.counts().sensors.sweeps, 0U);
   EXPECT_TRUE(map_.render().empty());
 }
 
 TEST_F(LiveLidarMap, AClearedMapIsMadeAgain) {
-  map_.placeLidar(kSpinning, mountingOfLidar());
+  map_.sensors().placeLidar(kSpinning, mountingOfLidar());
   driveAlong(20);
   std::size_t off = 0;
   const std::size_t before = countWallPoints(off);

@@ -23,7 +23,9 @@ std::string liveMapPath() { return ::testing::TempDir() + "live_map_test.db"; }
 /// Map of the room; odometry does not begin at the room's origin.
 class LiveMapTest : public ::testing::Test {
  protected:
-  LiveMapTest() : map_(Parameters(), liveMapPath(), 10.0) { map_.placeLaser("laser_left", testing_room::roomLaser()); }
+  LiveMapTest() : map_(Parameters(), liveMapPath(), 10.0) {
+    map_.sensors().placeLaser("laser_left", testing_room::roomLaser());
+  }
 
   void drive() {
     for (const auto& pose : trajectory_) map_.addOdometry({pose.stamp, T_odom_room_ * pose.pose});
@@ -104,7 +106,7 @@ TEST_F(LiveMapTest, ARestartedSessionDropsThePreviousOne) {
   drive();
   EXPECT_FALSE(map_.render().empty());
   map_.addOdometry({trajectory_.front().stamp - 3'000'000'000, Pose()});
-  EXPECT_EQ(map_.counts().scans, 0U);
+  EXPECT_EQ(map_.counts().sensors.scans, 0U);
   EXPECT_TRUE(map_.render().empty());
   drive();
   EXPECT_FALSE(map_.render().empty()) << "the laser has not moved";
@@ -112,7 +114,7 @@ TEST_F(LiveMapTest, ARestartedSessionDropsThePreviousOne) {
 
 TEST_F(LiveMapTest, ScansOfALaserWithoutAPlaceAreCounted) {
   map_.addScan("laser_right", urban_nav_core::Scan());
-  EXPECT_EQ(map_.counts().scans_unplaced, 1U);
+  EXPECT_EQ(map_.counts().sensors.unplaced, 1U);
 }
 
 /// Two rounds through the room with drifting odometry; every fifth pose is in the graph.
@@ -121,7 +123,7 @@ class LiveConstraintsTest : public ::testing::Test {
   static constexpr std::size_t kNodeStep = 5;
 
   LiveConstraintsTest() : map_(Parameters(), ::testing::TempDir() + "live_constraints_test.db", 10.0) {
-    map_.placeLaser("laser_right", testing_room::outwardLaser());
+    map_.sensors().placeLaser("laser_right", testing_room::outwardLaser());
     std::mt19937 random(5);
     for (urban_nav_core::StampNs stamp = truth_.front().stamp; stamp < truth_.back().stamp; stamp += 40'000'000)
       map_.addScan("laser_right", testing_room::scanRoom(truth_, testing_room::outwardLaser(), stamp, 0.005, random));

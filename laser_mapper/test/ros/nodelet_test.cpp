@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -18,6 +19,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "../support/room_rounds.hpp"
 #include "urban_nav_ros/closure.hpp"
@@ -46,6 +48,9 @@ class WallRobot : public urban_nav_ros::testing::Listener {
     keep("map/quality", qualities);
     keep("map/tiles", tiles);
     keep("map/constraints", constraints);
+    keep("map/grid", grids);
+    keep("map/traversability", costs);
+    keep("map/terrain", terrains);
     keep("laser_mapper/status", statuses);
   }
   static StampNs toStamp(int frame) { return kDriveStart + frame * 50'000'000LL; }
@@ -130,6 +135,22 @@ class WallRobot : public urban_nav_ros::testing::Listener {
     return all;
   }
 
+  /// Returns the value of a grid at a position; nullopt outside.
+  static std::optional<int> valueAt(const nav_msgs::OccupancyGrid& grid, double x, double y) {
+    const double cell = grid.info.resolution;
+    const auto u = static_cast<std::int64_t>(std::floor((x - grid.info.origin.position.x) / cell));
+    const auto v = static_cast<std::int64_t>(std::floor((y - grid.info.origin.position.y) / cell));
+    if (u < 0 || v < 0 || u >= grid.info.width || v >= grid.info.height) return std::nullopt;
+    return grid.data[static_cast<std::size_t>(v * grid.info.width + u)];
+  }
+  /// Returns whether the last grid has the wall, free ground before it, and nothing farther away.
+  bool hasGridOfWall() const {
+    return !grids.empty() && (valueAt(grids.back(), 2.55, 3.95) == 100 || valueAt(grids.back(), 2.55, 4.05) == 100) &&
+           valueAt(grids.back(), 2.55, 2.0) == 0 && valueAt(grids.back(), 2.55, 6.0) == -1;
+  }
+
+  std::vector<nav_msgs::OccupancyGrid> grids, costs;
+  std::vector<sensor_msgs::PointCloud2> terrains;
   std::vector<urban_nav_msgs::MapQuality> qualities;
   std::vector<urban_nav_msgs::RelativeConstraint> constraints;
   std::vector<urban_nav_msgs::MapTile> tiles;
@@ -208,6 +229,13 @@ TEST(LaserMapperNodelet, TilesAddUpToTheMapWhichIsSavedAndCleared) {
     return robot.showsWall(1500, 0.0) && robot.pointsOfTiles() == robot.clouds.back().width && !robot.qualities.empty();
   })) << robot.pointsOfTiles()
       << " points in tiles";
+  ASSERT_TRUE(WallRobot::until([&] {
+    return robot.hasGridOfWall() && !robot.costs.empty() && !robot.terrains.empty();
+  })) << robot.grids.size()
+      << " grids";
+  EXPECT_EQ(robot.grids.back().header.frame_id, "map");
+  EXPECT_EQ(robot.costs.back().data.size(), robot.costs.back().info.width * robot.costs.back().info.height);
+  EXPECT_GT(robot.terrains.back().width, 20U);
   const urban_nav_msgs::MapTile& tile = robot.tiles.back();
   EXPECT_EQ(tile.header.frame_id, "map");
   EXPECT_NEAR(tile.edge, 25.6, 1e-9) << "256 cubes of 0.1 m";

@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "urban_nav_core/camera/camera_info.hpp"
 #include "urban_nav_core/io/archive_types.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_core/types/frames.hpp"
-#include "urban_nav_ros/camera_info.hpp"
 #include "urban_nav_ros/depth_image.hpp"
+#include "urban_nav_ros/depth_inputs.hpp"
 #include "urban_nav_ros/stamp.hpp"
 
 namespace urban_nav_input {
@@ -73,18 +72,16 @@ BagDepth::BagDepth(Recording& recording, const BagTopics& topics, const urban_na
     else if (!T_base_camera) leave("no static tf from base_link to \"" + first.frame + "\"");
     if (!first.fault.empty() || !message || !T_base_camera) continue;
     try {
-      const urban_nav_core::CameraInfo calibration =
-          urban_nav_core::withRawCamera(urban_nav_ros::toCameraInfo(*message));
-      const urban_nav_core::RawCamera camera = urban_nav_core::rawCamera(calibration, info->name);
-      if (camera.pinhole.width != first.width || camera.pinhole.height != first.height) {
+      const urban_nav_ros::DepthCalibration calibration = urban_nav_ros::toDepthCalibration(*message, info->name);
+      const urban_nav_core::Pinhole& pinhole = calibration.pinhole;
+      if (pinhole.width != first.width || pinhole.height != first.height) {
         leave("its images have " + std::to_string(first.width) + "x" + std::to_string(first.height) + " pixels, " +
-              info->name + " is of " + std::to_string(camera.pinhole.width) + "x" +
-              std::to_string(camera.pinhole.height));
+              info->name + " is of " + std::to_string(pinhole.width) + "x" + std::to_string(pinhole.height));
         continue;
       }
-      if (urban_nav_core::needsRectification(calibration))
+      if (calibration.is_distorted)
         notes_.push_back(topic->name + ": the distortion in " + info->name + " is not corrected in depth images");
-      cameras_.push_back({toString(depthRole(i)), topic->name, first.frame, *T_base_camera, camera.pinhole});
+      cameras_.push_back({toString(depthRole(i)), topic->name, first.frame, *T_base_camera, pinhole});
     } catch (const urban_nav_core::UserError& error) {
       leave(error.what());
     }

@@ -36,6 +36,10 @@ constexpr std::array<const char*, 5> kPanoramaImages = {"ladybug/camera0/image_r
 constexpr std::array<const char*, 5> kPanoramaInfos = {"ladybug/camera0/camera_info", "ladybug/camera1/camera_info",
                                                        "ladybug/camera2/camera_info", "ladybug/camera3/camera_info",
                                                        "ladybug/camera4/camera_info"};
+constexpr std::array<const char*, 4> kDepthImages = {"depth0/image_raw", "depth1/image_raw", "depth2/image_raw",
+                                                     "depth3/image_raw"};
+constexpr std::array<const char*, 4> kDepthInfos = {"depth0/camera_info", "depth1/camera_info", "depth2/camera_info",
+                                                    "depth3/camera_info"};
 
 // Ground truth of recordings and of the simulator.
 constexpr const char* kTruthPose = "ground_truth/pose";
@@ -64,6 +68,7 @@ constexpr const char* kStereoDisparity = "stereo/disparity";
 constexpr const char* kStereoPoints = "stereo/points2";
 constexpr const char* kGroundPlane = "stereo/ground_plane";
 constexpr const char* kObstacles = "stereo/obstacles";
+constexpr const char* kDepthView = "stereo/depth_view";
 
 // Place recognition.
 constexpr const char* kPlaceBelief = "places/belief";
@@ -79,6 +84,9 @@ constexpr const char* kClosureMatches = "loops/matches";
 constexpr const char* kMapCloud = "map/cloud";
 constexpr const char* kMapTiles = "map/tiles";
 constexpr const char* kMapQuality = "map/quality";
+constexpr const char* kMapGrid = "map/grid";
+constexpr const char* kMapTraversability = "map/traversability";
+constexpr const char* kMapTerrain = "map/terrain";
 
 // scene_labeler.
 constexpr const char* kLabelImage = "labels/image";

@@ -2,7 +2,7 @@
 #include <string>
 #include <utility>
 
-#include "topics/lasers/depth_image_row.hpp"
+#include "laser_mapper/depth_image_row.hpp"
 #include "topics/lasers/lasers.hpp"
 #include "topics/lasers/spaced_pass.hpp"
 #include "urban_nav_ros/depth_image.hpp"
@@ -43,9 +43,12 @@ class SweepPass final : public SpacedPass {
     if (!pixels.fault.empty()) return addFault(camera.topic + ": " + pixels.fault);
     if (pixels.depth.cols != camera.pinhole.width || pixels.depth.rows != camera.pinhole.height)
       return addFault(camera.topic + ": an image has another size than the camera_info");
-    urban_nav_store::DepthImage row = depthImageRow(pixels.depth, camera);
+    urban_nav_store::DepthImage row = laser_mapper::depthImageRow(pixels.depth, camera.pinhole);
     row.session = session().id;
+    row.role = camera.role;
     row.stamp = input.stamp;
+    row.frame = camera.frame;
+    row.T_base_camera = camera.T_base_camera;
     TableStore<urban_nav_store::DepthImage>(store()).put(row);
   }
   void process(const urban_nav_input::SweepInput& input) override {

@@ -8,8 +8,8 @@
 
 namespace urban_nav {
 
-/// Returns the disparities of a keyframe thinned for the store, without session and stamp: every second pixel of every
-/// second row, or fewer, so that a view has at most 60 000 samples. `left`: of the size of `image`.
+/// Returns the disparities of a keyframe as stored for the map (dense_stereo::sampleDepths()), without session and
+/// stamp. `left`: of the size of `image`.
 urban_nav_store::DepthView depthViewRow(const dense_stereo::DisparityImage& image,
                                         const urban_nav_core::ImageView& left,
                                         const urban_nav_core::StereoCamera& camera,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "topics/lasers/depth_image_row.hpp"
+#include "laser_mapper/depth_image_row.hpp"
 
-namespace urban_nav {
+namespace laser_mapper {
 
 using urban_nav_store::DepthImage;
 using urban_nav_store::DepthView;
@@ -29,18 +29,15 @@ DepthView::Samples sampleDepth(const cv::Mat& depth, int step) {
 
 }  // namespace
 
-DepthImage depthImageRow(const cv::Mat& depth, const urban_nav_input::DepthCamera& camera) {
+DepthImage depthImageRow(const cv::Mat& depth, const urban_nav_core::Pinhole& pinhole) {
   DepthImage row;
-  row.role = camera.role;
-  row.frame = camera.frame;
   while (static_cast<std::int64_t>(depth.cols / row.step) * (depth.rows / row.step) > kMostDepthSamples) ++row.step;
-  row.fx = camera.pinhole.fx;
-  row.fy = camera.pinhole.fy;
-  row.cx = camera.pinhole.cx;
-  row.cy = camera.pinhole.cy;
-  row.T_base_camera = camera.T_base_camera;
+  row.fx = pinhole.fx;
+  row.fy = pinhole.fy;
+  row.cx = pinhole.cx;
+  row.cy = pinhole.cy;
   row.packed = DepthView::pack(sampleDepth(depth, static_cast<int>(row.step)));
   return row;
 }
 
-}  // namespace urban_nav
+}  // namespace laser_mapper
