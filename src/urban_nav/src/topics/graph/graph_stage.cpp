@@ -6,6 +6,7 @@
 #include "base/plot.hpp"
 #include "laser_mapper/parameters.hpp"
 #include "map/closure_notes.hpp"
+#include "map/learnt_links.hpp"
 #include "map/map_base.hpp"
 #include "map/map_division.hpp"
 #include "map/session_fixes.hpp"
@@ -127,6 +128,17 @@ class GraphStage final : public Stage {
                " separate maps: places are recognised again within each"},
               {}};
     }
+    const std::vector<urban_nav_store::PlaceLink> links =
+        acceptedLinks(*context.store, context, run_->closures, run_->assessments);
+    context.learns = canLearn(context, links);
+    if (context.learns) {
+      context.has_learnt = true;
+      context.learnt = links;
+      return {{"graph: " + std::to_string(links.size()) +
+               " accepted closures: places are recognised again by the appearances learnt from them"},
+              {}};
+    }
+    storeLinks(*context.store, links);
     std::vector<urban_nav_core::MetricClosure> by_stereo = closures;
     by_stereo.erase(std::remove_if(by_stereo.begin(), by_stereo.end(), isMeasuredByIcp), by_stereo.end());
     if (by_stereo.size() < closures.size()) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fabmap_node/store/place_rows.hpp"
+#include "map/learnt_links.hpp"
 #include "map/map_division.hpp"
 #include "urban_nav_store/table_store.hpp"
 
@@ -48,6 +49,7 @@ class GroupRecognition {
                const auto row = TableStore<StoredPlace>(*context_.store).get(key);
                return row ? row->descriptors : std::string();
              }),
+        learnt_(knownLinks(context)),
         result_(result) {}
 
   /// Returns the number of places with words of another model.
@@ -55,7 +57,9 @@ class GroupRecognition {
     const std::vector<const SessionOdometry*> runs = context_.runs();
     for (const std::size_t s : order_) {
       map_.beginSession(context_.names[s]);
-      addSession(s, ids_[s], travelledDistance(*runs[s]), isKnown(context_, s));
+      travelled_[ids_[s]] = travelledDistance(*runs[s]);
+      addSession(s, ids_[s], travelled_[ids_[s]], isKnown(context_, s));
+      learn(s);
     }
     result_.places += map_.places();
     return other_model_;
@@ -81,6 +85,21 @@ class GroupRecognition {
     });
   }
 
+  /// Confirms the links of a session that has passed to places of this and of earlier sessions.
+  void learn(std::size_t s) {
+    for (const urban_nav_store::PlaceLink& link : learnt_) {
+      const auto earlier = std::find(ids_.begin(), ids_.end(), link.earlier);
+      if (link.session != ids_[s] || earlier == ids_.end() || travelled_.count(link.earlier) == 0) continue;
+      const auto a = static_cast<std::size_t>(earlier - ids_.begin());
+      map_.confirm({{context_.names[a], link.earlier_stamp},
+                    {context_.names[s], link.stamp},
+                    travelled_.at(link.earlier).at(link.earlier_stamp),
+                    travelled_.at(link.session).at(link.stamp),
+                    link.metres,
+                    link.same_direction != 0});
+    }
+  }
+
   void count(const fabmap_node::PlaceDescription& description) {
     ++result_.observations;
     result_.has_panoramas = result_.has_panoramas || description.cameras > 1;
@@ -93,6 +112,8 @@ class GroupRecognition {
   const std::vector<urban_nav_store::SessionId> ids_;
   const std::vector<std::size_t> order_;  // of sessions
   FabMap map_;                            // with descriptors from the store
+  const std::vector<urban_nav_store::PlaceLink> learnt_;
+  std::map<urban_nav_store::SessionId, TravelledDistance> travelled_;  // of sessions that have passed
   PlacesRun& result_;
   std::size_t other_model_ = 0;
 };
