@@ -72,11 +72,9 @@ struct MapContext {
   /// Over all sessions: number of the group within which its places are recognised. Empty: one group.
   std::vector<std::size_t> groups;
   bool is_divided = false;  ///< by the last run of the pose graph, which is therefore not final
-  /// Links between places that the pose graph accepted, from which recognition learns appearances; sessions by their
-  /// ids.
-  std::vector<urban_nav_store::PlaceLink> learnt;
-  bool has_learnt = false;  ///< places are or were recognised again with `learnt`
-  bool learns = false;      ///< from the last run of the pose graph, which is therefore not final
+  /// Accepted links between places, with which places are recognised again (learnt_links.hpp). nullopt: not yet.
+  std::optional<std::vector<urban_nav_store::PlaceLink>> learnt;
+  bool learns = false;  ///< from the last run of the pose graph, which is therefore not final
   std::vector<urban_nav_core::MetricClosure> between_groups;  ///< rejected candidates, with the reason
 
   /// Returns the number of a session of this run over all sessions. Requires session < sessions.size().

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "topics/places/place_export.hpp"
 
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 
 #include "fabmap_node/store/model_rows.hpp"
+#include "topics/places/stored_verdicts.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/types/error.hpp"
 #include "urban_nav_store/table_store.hpp"
-#include "urban_nav_store/tables/place_link.hpp"
 #include "urban_nav_store/tables/stored_model.hpp"
 #include "urban_nav_store/tables/stored_place.hpp"
 
@@ -21,7 +20,6 @@ namespace fs = std::filesystem;
 
 using urban_nav_core::printNumber;
 using urban_nav_core::StampNs;
-using urban_nav_store::PlaceLink;
 using urban_nav_store::StoredModel;
 using urban_nav_store::StoredPlace;
 using urban_nav_store::StoredTrajectory;
@@ -30,7 +28,6 @@ using urban_nav_store::TableStore;
 namespace {
 
 constexpr StampNs kMostInterpolated = 1'000'000'000;  // ns between the poses around a place
-constexpr StampNs kOneMoment = 500'000'000;           // ns: verdicts name the nearest frame of odometry
 constexpr const char* kThumbnailFolder = "thumbnails";
 
 void makeFolder(const fs::path& path) {
@@ -55,34 +52,21 @@ std::vector<std::string> poseCells(const urban_nav_core::Trajectory& trajectory,
   return cells;
 }
 
-/// Returns the verdict of geometry on an earlier place that an observation shows: "accepted", "withdrawn", or empty
-/// without a verdict. `links`: of its session.
-std::string verdictCell(const std::vector<PlaceLink>& links, StampNs stamp) {
-  std::string verdict;
-  for (const PlaceLink& link : links) {
-    if (std::abs(link.stamp - stamp) > kOneMoment) continue;
-    if (link.accepted != 0) return "accepted";
-    verdict = "withdrawn";
-  }
-  return verdict;
-}
-
 /// Writes places of sessions one after another.
 class PlaceExportFolder {
  public:
-  PlaceExportFolder(urban_nav_store::Store& store, const fs::path& folder) : store_(store), folder_(folder) {
+  PlaceExportFolder(urban_nav_store::Store& store, const fs::path& folder)
+      : store_(store), folder_(folder), verdicts_(store) {
     makeFolder(folder_ / kThumbnailFolder);
   }
 
   void add(const StoredTrajectory& stored) {
     const urban_nav_core::Trajectory trajectory = toTrajectory(stored);
-    std::vector<PlaceLink> links;
-    TableStore<PlaceLink>(store_).forEach(stored.session.id, [&](const PlaceLink& link) { links.push_back(link); });
     TableStore<StoredPlace>(store_).forEach(stored.session.id, [&](const StoredPlace& row) {
       std::vector<std::string> cells = {stored.map, stored.session.id, std::to_string(row.stamp)};
       for (std::string& cell : poseCells(trajectory, row.stamp)) cells.push_back(std::move(cell));
       for (const std::string& cell : {std::to_string(row.cameras), std::to_string(row.missing), row.status, row.model,
-                                      writeThumbnail(row), verdictCell(links, row.stamp)})
+                                      writeThumbnail(row), verdicts_.find(row.session, row.stamp)})
         cells.push_back(cell);
       table_ += urban_nav_core::printCsvRow(cells);
       ++made_.places;
@@ -115,6 +99,7 @@ class PlaceExportFolder {
 
   urban_nav_store::Store& store_;
   const fs::path folder_;
+  const StoredVerdicts verdicts_;
   std::string table_ = "map,session,stamp_ns,x,y,z,qx,qy,qz,qw,cameras,missing,status,model,thumbnail,verdict\n";
   std::map<std::string, std::string> models_;  // bytes by hash
   ExportedPlaces made_;

@@ -20,18 +20,6 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-/// Returns whether the places of a session are known from the beginning.
-bool isKnown(const MapContext& context, std::size_t session) {
-  if (session < context.is_frozen.size() && context.is_frozen[session]) return true;
-  return !context.joins && context.isPrevious(session);
-}
-
-/// Returns the sessions of a group: first those whose places are known.
-std::vector<std::size_t> knownFirst(const MapContext& context, std::vector<std::size_t> group) {
-  std::stable_partition(group.begin(), group.end(), [&](std::size_t session) { return isKnown(context, session); });
-  return group;
-}
-
 /// Recognition among the sessions of one group. Adds to a common result.
 class GroupRecognition {
  public:
@@ -40,7 +28,7 @@ class GroupRecognition {
       : model_(model),
         context_(context),
         ids_(context.ids()),
-        order_(knownFirst(context, group)),
+        order_(recognitionOrder(context, group)),
         map_(model.model, parameters,
              [this](std::size_t session, urban_nav_core::StampNs stamp) {
                StoredPlace key;
@@ -58,7 +46,7 @@ class GroupRecognition {
     for (const std::size_t s : order_) {
       map_.beginSession(context_.names[s]);
       travelled_[ids_[s]] = travelledDistance(*runs[s]);
-      addSession(s, ids_[s], travelled_[ids_[s]], isKnown(context_, s));
+      addSession(s, ids_[s], travelled_[ids_[s]], hasKnownPlaces(context_, s));
       learn(s);
     }
     result_.places += map_.places();
@@ -85,15 +73,15 @@ class GroupRecognition {
     });
   }
 
-  /// Confirms the links of a session that has passed to places of this and of earlier sessions.
+  /// Confirms the links from a session, which was recognised last, to places of this and of earlier sessions.
   void learn(std::size_t s) {
     for (const urban_nav_store::PlaceLink& link : learnt_) {
-      const auto earlier = std::find(ids_.begin(), ids_.end(), link.earlier);
-      if (link.session != ids_[s] || earlier == ids_.end() || travelled_.count(link.earlier) == 0) continue;
-      const auto a = static_cast<std::size_t>(earlier - ids_.begin());
+      const auto earlier = travelled_.find(link.earlier);
+      if (link.session != ids_[s] || earlier == travelled_.end()) continue;
+      const auto a = static_cast<std::size_t>(std::find(ids_.begin(), ids_.end(), link.earlier) - ids_.begin());
       map_.confirm({{context_.names[a], link.earlier_stamp},
                     {context_.names[s], link.stamp},
-                    travelled_.at(link.earlier).at(link.earlier_stamp),
+                    earlier->second.at(link.earlier_stamp),
                     travelled_.at(link.session).at(link.stamp),
                     link.metres,
                     link.same_direction != 0});
@@ -110,10 +98,10 @@ class GroupRecognition {
   const LoadedPlaceModel& model_;
   const MapContext& context_;
   const std::vector<urban_nav_store::SessionId> ids_;
-  const std::vector<std::size_t> order_;  // of sessions
+  const std::vector<std::size_t> order_;  // of sessions, as they are recognised
   FabMap map_;                            // with descriptors from the store
   const std::vector<urban_nav_store::PlaceLink> learnt_;
-  std::map<urban_nav_store::SessionId, TravelledDistance> travelled_;  // of sessions that have passed
+  std::map<urban_nav_store::SessionId, TravelledDistance> travelled_;  // of recognised sessions
   PlacesRun& result_;
   std::size_t other_model_ = 0;
 };

@@ -43,8 +43,8 @@ class PlacesStage final : public Stage {
 
   Messages run(MapContext& context) override {
     run_ = runPlaces(context.options.parameters.get(fabmap_node::table()), *model(context), context);
-    if (!context.groups.empty() || context.has_learnt)
-      context.closures = context.given;  // instead of those within larger groups
+    if (!context.groups.empty() || context.learnt)
+      context.closures = context.given;  // instead of those of the recognition before
     if (isRequested(context.options, "loops")) addProposed(run_->closures, "places", context.closures);
     if (run_->observations == 0) return {{}, run_->warnings};
     return {{"places: " + std::to_string(run_->observations) + (run_->has_panoramas ? " panoramas, " : " images, ") +

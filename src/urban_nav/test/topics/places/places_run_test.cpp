@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topics/places/places_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "support/place_images.hpp"
+#include "urban_nav_core/parallel/for_each.hpp"
+#include "urban_nav_input/testing/folders.hpp"
+#include "urban_nav_store/table_store.hpp"
+
+namespace urban_nav {
+namespace {
+
+using fabmap_node::PlaceBelief;
+using fabmap_node::PlaceKnowledge;
+using testing::sceneImage;
+using urban_nav_core::StampNs;
+using urban_nav_store::PlaceLink;
+using urban_nav_store::StoredPlace;
+
+constexpr StampNs kObservationPeriod = 1'000'000'000;  // ns
+constexpr double kObservationSpacing = 6.0;            // m, farther than places reach
+constexpr unsigned kObservations = 12, kDusk = 100, kElsewhere = 500;
+
+/// The view of a place: what daylight shows of it on the left, and what stands out at dusk on the right.
+cv::Mat viewInLight(unsigned place, double share_of_day, int shift) {
+  cv::Mat view = sceneImage(kDusk + place, shift);
+  const int columns = static_cast<int>(share_of_day * view.cols);
+  sceneImage(place, shift).colRange(0, columns).copyTo(view.colRange(0, columns));
+  return view;
+}
+
+/// Three drives past the same places: by day, at dusk, and at night, which resembles dusk more than day; then one
+/// elsewhere.
+class PlacesOfDays : public ::testing::Test {
+ protected:
+  PlacesOfDays() {
+    context_.store = &store_;
+    context_.joins = context_.divides = true;
+    addSession("day", 0, 1.0, 0);
+    addSession("dusk", 1, 0.5, 0);
+    addSession("night", 2, 0.2, 0);
+    addSession("elsewhere", 3, 0.2, kElsewhere);
+  }
+
+  void addSession(const std::string& name, unsigned day, double share_of_day, unsigned first) {
+    store_.sessions().put(urban_nav_store::Session{name, name, "", "", stamp(day, 0), true});
+    PlaceWriter writer(model_, parameters_, name, PlaceWriter::Kind::Place, true);
+    SessionOdometry odometry;
+    for (unsigned i = 0; i < kObservations; ++i) {
+      const auto view = [=] {
+        return std::vector<cv::Mat>{viewInLight(first + i, share_of_day, static_cast<int>(2 * day))};
+      };
+      if (const auto described = writer.add(stamp(day, i), view)) places_.put(described->row);
+      SmoothedFrame frame;
+      frame.stamp = stamp(day, i);
+      frame.T_odom_base.pose =
+          urban_nav_core::Pose(Eigen::Quaterniond::Identity(), {kObservationSpacing * i, 0.0, 0.0});
+      odometry.settled.push_back(frame);
+    }
+    while (const auto described = writer.next()) places_.put(described->row);
+    context_.names.push_back(name);
+    context_.previous.ids.push_back(name);
+    context_.previous.runs.push_back(odometry);
+  }
+
+  PlacesRun run() const { return runPlaces(parameters_, *model_, context_); }
+  PlacesRun runWith(std::vector<PlaceLink> links) {
+    context_.learnt = std::move(links);
+    return run();
+  }
+
+  static StampNs stamp(unsigned day, unsigned i) { return (86400 * StampNs{day} + i) * kObservationPeriod; }
+  static PlaceLink link(const std::string& session, StampNs at, const std::string& earlier, StampNs earlier_at) {
+    PlaceLink made{session, at, earlier, earlier_at};
+    made.metres = 0.3;
+    return made;
+  }
+  static std::vector<PlaceLink> linksOfDusk() {
+    std::vector<PlaceLink> links;
+    for (unsigned i = 0; i < kObservations; ++i) links.push_back(link("dusk", stamp(1, i), "day", stamp(0, i)));
+    return links;
+  }
+  /// Returns the probability of the right place of another day at each observation of a session.
+  static std::vector<double> rightPlaces(const PlacesRun& run, unsigned session) {
+    std::vector<double> probabilities;
+    for (unsigned i = 0; i < kObservations; ++i) {
+      double right = 0.0;
+      for (const fabmap_node::LikelyPlace& place : run.beliefs[session][i].likeliest)
+        if (place.at.stamp % stamp(1, 0) == stamp(0, i)) right = std::max(right, place.probability);
+      probabilities.push_back(right);
+    }
+    return probabilities;
+  }
+  static void expectSameBeliefs(const std::vector<PlaceBelief>& a, const std::vector<PlaceBelief>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      EXPECT_EQ(a[i].p_new, b[i].p_new) << i;
+      ASSERT_EQ(a[i].likeliest.size(), b[i].likeliest.size()) << i;
+      for (std::size_t k = 0; k < a[i].likeliest.size(); ++k) {
+        EXPECT_EQ(a[i].likeliest[k].at, b[i].likeliest[k].at) << i;
+        EXPECT_EQ(a[i].likeliest[k].probability, b[i].likeliest[k].probability) << i;
+      }
+    }
+  }
+
+  const fabmap_node::Parameters parameters_;
+  const std::shared_ptr<const LoadedPlaceModel> model_ = loadPlaceModel(parameters_);
+  const urban_nav_input::testing::TemporaryFolder folder_;
+  urban_nav_store::Store store_{folder_.file("days.db"), urban_nav_store::Access::Write};
+  urban_nav_store::TableStore<StoredPlace> places_{store_};
+  const MapOptions options_;
+  Console console_;
+  MapContext context_{options_, console_};
+};
+
+TEST_F(PlacesOfDays, WhatDuskWasConfirmedToShowHelpsAtNight) {
+  const PlacesRun before = run(), learnt = runWith(linksOfDusk());
+  const std::vector<double> p_before = rightPlaces(before, 2), p_learnt = rightPlaces(learnt, 2);
+  double gain = 0.0;
+  for (unsigned i = 0; i < kObservations; ++i) gain += (p_learnt[i] - p_before[i]) / kObservations;
+  EXPECT_GT(gain, 0.0);
+  for (const unsigned earlier : {0U, 1U}) expectSameBeliefs(learnt.beliefs[earlier], before.beliefs[earlier]);
+}
+
+TEST_F(PlacesOfDays, NothingElseBecomesKnown) {
+  const PlacesRun learnt = runWith(linksOfDusk());
+  for (const PlaceBelief& belief : learnt.beliefs[3]) {
+    EXPECT_NE(belief.knowledge, PlaceKnowledge::Known);
+    EXPECT_GT(belief.p_new, 0.5);
+  }
+  for (unsigned i = 0; i < kObservations; ++i)
+    for (const fabmap_node::LikelyPlace& place : learnt.beliefs[2][i].likeliest)
+      EXPECT_TRUE(place.at.stamp % stamp(1, 0) == stamp(0, i) || place.probability < 0.9) << i;
+}
+
+TEST_F(PlacesOfDays, LinksToSessionsThatHaveNotPassedAreIgnored) {
+  const PlacesRun before = run();
+  const PlacesRun same = runWith({link("dusk", stamp(1, 3), "sunday", 3), link("day", stamp(0, 3), "dusk", stamp(1, 3)),
+                                  link("sunday", 3, "day", stamp(0, 3))});
+  for (unsigned session = 0; session < 4; ++session) expectSameBeliefs(same.beliefs[session], before.beliefs[session]);
+}
+
+TEST_F(PlacesOfDays, KnownSessionsTeachWhatTheirStoreHolds) {
+  const PlacesRun learnt = runWith(linksOfDusk());
+  context_.learnt.reset();
+  context_.is_frozen = {true, true, false, false};
+  const std::vector<double> p_before = rightPlaces(run(), 2);
+  const auto store = [&](std::int64_t accepted) {
+    for (PlaceLink each : linksOfDusk()) {
+      each.accepted = accepted;
+      urban_nav_store::TableStore<PlaceLink>(store_).put(each);
+    }
+  };
+  store(0);
+  EXPECT_EQ(rightPlaces(run(), 2), p_before) << "withdrawn";
+  store(1);
+  EXPECT_EQ(rightPlaces(run(), 2), rightPlaces(learnt, 2));
+}
+
+TEST_F(PlacesOfDays, TheResultDoesNotDependOnTheNumberOfThreads) {
+  const PlacesRun learnt = runWith(linksOfDusk());
+  const urban_nav_core::ThreadLimit one_thread(1);
+  const PlacesRun again = run();
+  for (unsigned session = 0; session < 4; ++session) expectSameBeliefs(again.beliefs[session], learnt.beliefs[session]);
+}
+
+}  // namespace
+}  // namespace urban_nav
