@@ -136,7 +136,7 @@ TEST_F(LearntLinks, WhatTheGraphWithdrawsLaterIsLeftOut) {
 TEST_F(LearntLinks, TheStoreKeepsAcceptedOnesAndWithdrawsThem) {
   const urban_nav_input::testing::TemporaryFolder folder;
   urban_nav_store::Store store(folder.file("links.db"), urban_nav_store::Access::Write);
-  for (const std::string& id : context.previous.ids) store.sessions().put(urban_nav_store::Session{id});
+  for (const std::string& id : context.previous.ids) store.sessions().put(urban_nav_store::Session{id, id, "", "", 0, true});
   add(measuredClosure({"day", 1}, {"dusk", 101}), ClosureVerdict::Accepted);
   add(measuredClosure({"day", 2}, {"dusk", 102}), ClosureVerdict::Rejected);
   storeLinks(store, links());
