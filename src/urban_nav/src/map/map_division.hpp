@@ -35,8 +35,9 @@ bool hasKnownPlaces(const MapContext& context, std::size_t session);
 /// Returns the sessions of a group in the order of recognition: those with known places first.
 std::vector<std::size_t> recognitionOrder(const MapContext& context, std::vector<std::size_t> group);
 
-/// Sets the groups of the context, in which nothing is learnt yet. `closures`: with the verdicts of the pose graph, `assessments`. Those between
-/// sessions that are no longer in one group become rejected candidates in MapContext::between_groups.
+/// Sets the groups of the context, in which nothing is learnt yet. `closures`: with the verdicts of the pose graph,
+/// `assessments`. Those between sessions that are no longer in one group become rejected candidates in
+/// MapContext::between_groups.
 void divideGroups(const std::vector<std::size_t>& groups, const std::vector<urban_nav_core::MetricClosure>& closures,
                   const std::vector<ClosureAssessment>& assessments, MapContext& context);
 

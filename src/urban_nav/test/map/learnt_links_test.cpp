@@ -65,17 +65,17 @@ TEST_F(LearntLinks, OnlyWhatGeometryAndTheGraphAcceptTeaches) {
   add(measuredClosure({"day", 4}, {"dusk", 104}), ClosureVerdict::Waiting);
   add(measuredClosure({"day", 5}, {"elsewhere", 105}), ClosureVerdict::Accepted);
   add(measuredClosure({"day", 6}, {"dusk", 106}), ClosureVerdict::Rejected);
-  const std::vector<PlaceLink> made = links();
-  ASSERT_EQ(made.size(), 2U);
-  EXPECT_EQ(made[0].session, "id_dusk");
-  EXPECT_EQ(made[0].stamp, 101);
-  EXPECT_EQ(made[0].earlier, "id_day");
-  EXPECT_EQ(made[0].earlier_stamp, 1);
-  EXPECT_EQ(made[0].metres, 1.0);
-  EXPECT_EQ(made[0].accepted, 1);
-  EXPECT_EQ(made[1].stamp, 106);
-  EXPECT_EQ(made[1].accepted, 0) << "withdrawn";
-  const auto learnt = linksToLearn(context, made);
+  const std::vector<PlaceLink> found = links();
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].session, "id_dusk");
+  EXPECT_EQ(found[0].stamp, 101);
+  EXPECT_EQ(found[0].earlier, "id_day");
+  EXPECT_EQ(found[0].earlier_stamp, 1);
+  EXPECT_EQ(found[0].metres, 1.0);
+  EXPECT_EQ(found[0].accepted, 1);
+  EXPECT_EQ(found[1].stamp, 106);
+  EXPECT_EQ(found[1].accepted, 0) << "withdrawn";
+  const auto learnt = linksToLearn(context, found);
   ASSERT_TRUE(learnt);
   ASSERT_EQ(learnt->size(), 1U);
   EXPECT_EQ(learnt->front().stamp, 101);
@@ -136,7 +136,8 @@ TEST_F(LearntLinks, WhatTheGraphWithdrawsLaterIsLeftOut) {
 TEST_F(LearntLinks, TheStoreKeepsAcceptedOnesAndWithdrawsThem) {
   const urban_nav_input::testing::TemporaryFolder folder;
   urban_nav_store::Store store(folder.file("links.db"), urban_nav_store::Access::Write);
-  for (const std::string& id : context.previous.ids) store.sessions().put(urban_nav_store::Session{id, id, "", "", 0, true});
+  for (const std::string& id : context.previous.ids)
+    store.sessions().put(urban_nav_store::Session{id, id, "", "", 0, true});
   add(measuredClosure({"day", 1}, {"dusk", 101}), ClosureVerdict::Accepted);
   add(measuredClosure({"day", 2}, {"dusk", 102}), ClosureVerdict::Rejected);
   storeLinks(store, links());

@@ -96,7 +96,7 @@ std::vector<ClosureAssessment> verdictsSoFar(const GraphRun& run) {
   return verdicts;
 }
 
-/// Returns whether no stage has to run again after this run, as far as its relaxation without planes can tell.
+/// Returns whether no stage has to run again after this run, by its relaxation without planes.
 bool isFinalRun(const MapContext& context, const GraphRun& run) {
   return !isDivided(context, dividedGroups(context, run.maps())) &&
          !linksToLearn(context, linksOfGraph(context, run.closures, verdictsSoFar(run)));

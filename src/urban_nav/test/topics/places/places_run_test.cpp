@@ -23,9 +23,9 @@ using urban_nav_store::StoredPlace;
 
 constexpr StampNs kObservationPeriod = 6'000'000'000;  // ns, at 1 m/s
 constexpr double kObservationSpacing = 6.0;            // m, farther than places reach
-constexpr unsigned kObservations = 12, kDusk = 100, kElsewhere = 500;
+constexpr unsigned kObservations = 8, kDusk = 100, kElsewhere = 500;
 
-/// The view of a place: what daylight shows of it on the left, and what stands out at dusk on the right.
+/// The view of a place: what daylight shows of it on the left, and of dusk on the right.
 cv::Mat viewInLight(unsigned place, double share_of_day, int shift) {
   cv::Mat view = sceneImage(kDusk + place, shift);
   const int columns = static_cast<int>(share_of_day * view.cols);
@@ -87,14 +87,14 @@ class PlacesOfDays : public ::testing::Test {
   }
 
   static StampNs stamp(unsigned day, unsigned i) { return (14400 * StampNs{day} + i) * kObservationPeriod; }
-  static PlaceLink link(const std::string& session, StampNs at, const std::string& earlier, StampNs earlier_at) {
-    PlaceLink made{session, at, earlier, earlier_at};
-    made.metres = 0.3;
-    return made;
+  static PlaceLink linkBetween(const std::string& session, StampNs at, const std::string& earlier, StampNs earlier_at) {
+    PlaceLink link{session, at, earlier, earlier_at};
+    link.metres = 0.3;
+    return link;
   }
   static std::vector<PlaceLink> linksOfDusk() {
     std::vector<PlaceLink> links;
-    for (unsigned i = 0; i < kObservations; ++i) links.push_back(link("dusk", stamp(1, i), "day", stamp(0, i)));
+    for (unsigned i = 0; i < kObservations; ++i) links.push_back(linkBetween("dusk", stamp(1, i), "day", stamp(0, i)));
     return links;
   }
   /// Returns the probability of the right place of the first day at each observation of a session.
@@ -153,8 +153,9 @@ TEST_F(PlacesOfDays, NothingElseBecomesKnown) {
 
 TEST_F(PlacesOfDays, LinksToSessionsThatHaveNotPassedAreIgnored) {
   const PlacesRun before = run();
-  const PlacesRun same = runWith({link("dusk", stamp(1, 3), "sunday", 3), link("day", stamp(0, 3), "dusk", stamp(1, 3)),
-                                  link("sunday", 3, "day", stamp(0, 3))});
+  const PlacesRun same =
+      runWith({linkBetween("dusk", stamp(1, 3), "sunday", 3), linkBetween("day", stamp(0, 3), "dusk", stamp(1, 3)),
+               linkBetween("sunday", 3, "day", stamp(0, 3))});
   for (unsigned session = 0; session < 4; ++session) expectSameBeliefs(same.beliefs[session], before.beliefs[session]);
 }
 
