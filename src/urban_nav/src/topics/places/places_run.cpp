@@ -24,21 +24,26 @@ namespace {
 class GroupRecognition {
  public:
   GroupRecognition(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model, const MapContext& context,
-                   const std::vector<std::size_t>& group, PlacesRun& result)
+                   const std::vector<std::size_t>& group, fabmap_node::AgreementCache* known_agreements,
+                   PlacesRun& result)
       : model_(model),
         context_(context),
         ids_(context.ids()),
         order_(recognitionOrder(context, group)),
-        map_(model.model, parameters,
-             [this](std::size_t session, urban_nav_core::StampNs stamp) {
-               StoredPlace key;
-               key.session = ids_[order_[session]];
-               key.stamp = stamp;
-               const auto row = TableStore<StoredPlace>(*context_.store).get(key);
-               return row ? row->descriptors : std::string();
-             }),
+        map_(
+            model.model, parameters,
+            [this](std::size_t session, urban_nav_core::StampNs stamp) {
+              StoredPlace key;
+              key.session = ids_[order_[session]];
+              key.stamp = stamp;
+              const auto row = TableStore<StoredPlace>(*context_.store).get(key);
+              return row ? row->descriptors : std::string();
+            },
+            known_agreements),
         learnt_(knownLinks(context)),
-        result_(result) {}
+        result_(result) {
+    if (known_agreements != nullptr) known_agreements->beginMap(order_);
+  }
 
   /// Returns the number of places with words of another model.
   std::size_t run() {
@@ -114,13 +119,13 @@ TravelledDistance travelledDistance(const SessionOdometry& run) {
   return travelled;
 }
 
-PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model,
-                    const MapContext& context) {
+PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model, const MapContext& context,
+                    fabmap_node::AgreementCache* known_agreements) {
   PlacesRun result;
   result.beliefs.resize(context.names.size());
   std::size_t other_model = 0;
   for (const std::vector<std::size_t>& group : sessionsOfGroups(context))
-    other_model += GroupRecognition(parameters, model, context, group, result).run();
+    other_model += GroupRecognition(parameters, model, context, group, known_agreements, result).run();
   if (other_model > 0)
     result.warnings.push_back(std::to_string(other_model) +
                               " places of previous sessions have words of a different model and are not used");

@@ -176,6 +176,19 @@ TEST_F(PlacesOfDays, KnownSessionsTeachWhatTheirStoreHolds) {
   EXPECT_EQ(ofFirstDay(run(), 2), ofFirstDay(learnt, 2));
 }
 
+TEST_F(PlacesOfDays, DescriptorsComparedBeforeOnlySaveTime) {
+  fabmap_node::AgreementCache cache;
+  runPlaces(parameters_, *model_, context_, &cache);
+  const std::size_t pairs = cache.pairs();
+  EXPECT_GT(pairs, kObservations);
+  runPlaces(parameters_, *model_, context_, &cache);
+  EXPECT_EQ(cache.pairs(), pairs) << "all were known";
+  context_.learnt = linksOfDusk();
+  context_.groups = {0, 0, 0, 3};
+  const PlacesRun fresh = run(), known = runPlaces(parameters_, *model_, context_, &cache);
+  for (unsigned session = 0; session < 4; ++session) expectSameBeliefs(known.beliefs[session], fresh.beliefs[session]);
+}
+
 TEST_F(PlacesOfDays, TheResultDoesNotDependOnTheNumberOfThreads) {
   const PlacesRun learnt = runWith(linksOfDusk());
   const urban_nav_core::ThreadLimit one_thread(1);
