@@ -18,7 +18,7 @@ using urban_nav_core::PoseRef;
 using urban_nav_store::PlaceLink;
 
 /// Closure that loop_metric has measured, 1 m along the path.
-MetricClosure measuredClosure(const PoseRef& a, const PoseRef& b) {
+MetricClosure closureOfOnePlace(const PoseRef& a, const PoseRef& b) {
   MetricClosure closure;
   closure.a = a;
   closure.b = b;
@@ -55,16 +55,16 @@ class LearntLinks : public ::testing::Test {
 };
 
 TEST_F(LearntLinks, OnlyWhatGeometryAndTheGraphAcceptTeaches) {
-  add(measuredClosure({"day", 1}, {"dusk", 101}), ClosureVerdict::Accepted);
-  MetricClosure rejected = measuredClosure({"day", 2}, {"dusk", 102});
+  add(closureOfOnePlace({"day", 1}, {"dusk", 101}), ClosureVerdict::Accepted);
+  MetricClosure rejected = closureOfOnePlace({"day", 2}, {"dusk", 102});
   rejected.verdict = ClosureVerdict::Rejected;
   add(rejected, ClosureVerdict::Rejected);
-  MetricClosure of_file = measuredClosure({"day", 3}, {"dusk", 103});
+  MetricClosure of_file = closureOfOnePlace({"day", 3}, {"dusk", 103});
   of_file.evidence.clear();
   add(of_file, ClosureVerdict::Accepted);
-  add(measuredClosure({"day", 4}, {"dusk", 104}), ClosureVerdict::Waiting);
-  add(measuredClosure({"day", 5}, {"elsewhere", 105}), ClosureVerdict::Accepted);
-  add(measuredClosure({"day", 6}, {"dusk", 106}), ClosureVerdict::Rejected);
+  add(closureOfOnePlace({"day", 4}, {"dusk", 104}), ClosureVerdict::Waiting);
+  add(closureOfOnePlace({"day", 5}, {"elsewhere", 105}), ClosureVerdict::Accepted);
+  add(closureOfOnePlace({"day", 6}, {"dusk", 106}), ClosureVerdict::Rejected);
   const std::vector<PlaceLink> found = links();
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].session, "id_dusk");
@@ -83,9 +83,9 @@ TEST_F(LearntLinks, OnlyWhatGeometryAndTheGraphAcceptTeaches) {
 
 TEST_F(LearntLinks, DoNotDependOnTheOrderOfClosures) {
   for (const urban_nav_core::StampNs t : {7, 3, 5}) {
-    add(measuredClosure({"dusk", 100 + t}, {"night", 200 + t}), ClosureVerdict::Accepted);
-    add(measuredClosure({"day", t}, {"night", 200 + t}), ClosureVerdict::Accepted);
-    add(measuredClosure({"day", t}, {"dusk", 100 + t}), ClosureVerdict::Accepted);
+    add(closureOfOnePlace({"dusk", 100 + t}, {"night", 200 + t}), ClosureVerdict::Accepted);
+    add(closureOfOnePlace({"day", t}, {"night", 200 + t}), ClosureVerdict::Accepted);
+    add(closureOfOnePlace({"day", t}, {"dusk", 100 + t}), ClosureVerdict::Accepted);
   }
   MetricClosure by_laser = closures.front();  // the same poses: one link, as accepted as the better of both
   by_laser.method = ClosureMethod::Icp;
@@ -106,9 +106,9 @@ TEST_F(LearntLinks, DoNotDependOnTheOrderOfClosures) {
 }
 
 TEST_F(LearntLinks, PlacesAreRecognisedAgainOnlyIfASessionFollows) {
-  add(measuredClosure({"day", 1}, {"night", 201}), ClosureVerdict::Accepted);
+  add(closureOfOnePlace({"day", 1}, {"night", 201}), ClosureVerdict::Accepted);
   EXPECT_FALSE(linksToLearn(context, links())) << "night is the last session";
-  add(measuredClosure({"day", 1}, {"day", 9}), ClosureVerdict::Accepted);
+  add(closureOfOnePlace({"day", 1}, {"day", 9}), ClosureVerdict::Accepted);
   ASSERT_TRUE(linksToLearn(context, links())) << "a place of one session, for the next";
   context.groups = {0, 1, 1};
   EXPECT_FALSE(linksToLearn(context, links())) << "day is a map of its own";
@@ -119,8 +119,8 @@ TEST_F(LearntLinks, PlacesAreRecognisedAgainOnlyIfASessionFollows) {
 
 // Each repetition has fewer links, so it ends.
 TEST_F(LearntLinks, WhatTheGraphWithdrawsLaterIsLeftOut) {
-  add(measuredClosure({"day", 1}, {"dusk", 101}), ClosureVerdict::Accepted);
-  add(measuredClosure({"day", 2}, {"dusk", 102}), ClosureVerdict::Accepted);
+  add(closureOfOnePlace({"day", 1}, {"dusk", 101}), ClosureVerdict::Accepted);
+  add(closureOfOnePlace({"day", 2}, {"dusk", 102}), ClosureVerdict::Accepted);
   context.learnt = linksToLearn(context, links());
   ASSERT_TRUE(context.learnt);
   EXPECT_FALSE(linksToLearn(context, links())) << "all are still accepted: final";
@@ -138,8 +138,8 @@ TEST_F(LearntLinks, TheStoreKeepsAcceptedOnesAndWithdrawsThem) {
   urban_nav_store::Store store(folder.file("links.db"), urban_nav_store::Access::Write);
   for (const std::string& id : context.previous.ids)
     store.sessions().put(urban_nav_store::Session{id, id, "", "", 0, true});
-  add(measuredClosure({"day", 1}, {"dusk", 101}), ClosureVerdict::Accepted);
-  add(measuredClosure({"day", 2}, {"dusk", 102}), ClosureVerdict::Rejected);
+  add(closureOfOnePlace({"day", 1}, {"dusk", 101}), ClosureVerdict::Accepted);
+  add(closureOfOnePlace({"day", 2}, {"dusk", 102}), ClosureVerdict::Rejected);
   storeLinks(store, links());
   const urban_nav_store::TableStore<PlaceLink> table(store);
   std::vector<std::int64_t> accepted;
