@@ -17,9 +17,10 @@ constexpr int kSecondLookCandidates = 10;
 constexpr double kCarried = 2.0;  // m along both paths from a confirmed closure: places that drift apart at once are at
                                   // most this much farther from each other
 
-RecogniserOptions recogniserOptions(const Parameters& parameters) {
+RecogniserOptions recogniserOptions(const Parameters& parameters, AgreementCache* known_agreements) {
   RecogniserOptions options;
   options.matcher.second_looks = parameters.descriptor_matching ? kSecondLookCandidates : 0;
+  options.matcher.known_agreements = known_agreements;
   options.sequence = parameters.sequence;
   options.detects_stationary = false;  // process() passes on only observations of a moving camera
   options.mask = static_cast<StampNs>(std::llround(1e9 * parameters.mask));
@@ -28,9 +29,10 @@ RecogniserOptions recogniserOptions(const Parameters& parameters) {
 
 }  // namespace
 
-FabMap::FabMap(const PlaceModel& model, const Parameters& parameters, LookReader read_look)
+FabMap::FabMap(const PlaceModel& model, const Parameters& parameters, LookReader read_look,
+               AgreementCache* known_agreements)
     : parameters_(parameters),
-      recogniser_(model, recogniserOptions(parameters), std::move(read_look)),
+      recogniser_(model, recogniserOptions(parameters, known_agreements), std::move(read_look)),
       selector_(parameters) {}
 
 void FabMap::beginSession(const std::string& name) {

@@ -36,7 +36,9 @@ class FabMap {
  public:
   /// The model must outlive the object. With `read_look` the map does not keep the words and descriptors of places
   /// beside its index; descriptors are read by the thread that calls process(). Sessions are numbered from 0.
-  FabMap(const PlaceModel& model, const Parameters& parameters, LookReader read_look = {});
+  /// `known_agreements`: see MatcherOptions.
+  FabMap(const PlaceModel& model, const Parameters& parameters, LookReader read_look = {},
+         AgreementCache* known_agreements = nullptr);
 
   /// Starts a session to which subsequent observations belong.
   void beginSession(const std::string& name);

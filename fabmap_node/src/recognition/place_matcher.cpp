@@ -72,7 +72,11 @@ bool PlaceMatcher::isElsewhere(std::size_t a, std::size_t b) const {
   return !isNear(a, b) && !hasNear(a, b) && !hasNear(b, a);
 }
 
-double PlaceMatcher::agreement(std::size_t a, std::size_t b) const { return secondLook(look(a), look(b)).share; }
+double PlaceMatcher::agreement(std::size_t a, std::size_t b) const {
+  std::vector<Candidate> other{{b, 0.0, {}, b}};
+  compareAll(places_[a], look(a), 1, other);
+  return other.front().share();
+}
 
 void PlaceMatcher::confirm(const ConfirmedPair& pair) {
   groups_.confirm(pair, [this](std::size_t a, std::size_t b) { return agreement(a, b); });
@@ -153,14 +157,31 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::likeliest(
 }
 
 /// Compares every `step`-th descriptor of the places with those of the query.
-void PlaceMatcher::compareAll(const ComparedFeatures& query, std::size_t step,
+void PlaceMatcher::compareAll(const DescribedPlace& query, const ComparedFeatures& own, std::size_t step,
                               std::vector<Candidate>& candidates) const {
+  AgreementCache* const cache = options_.known_agreements;
+  const AgreementCache::Observation asked{query.session, query.stamp};
+  const auto shown = [&](const Candidate& candidate) {
+    return AgreementCache::Observation{places_[candidate.shown].session, places_[candidate.shown].stamp};
+  };
+  std::vector<std::size_t> unknown;
   std::vector<std::string> packed;
-  for (const Candidate& candidate : candidates) packed.push_back(packedLook(candidate.shown));
-  urban_nav_core::forEach(candidates.size(), 1, [&](std::size_t i) {
-    const ComparedFeatures all = unpackPlaceLook(packed[i], places_[candidates[i].shown]);
-    candidates[i].look = secondLook(query, step > 1 ? thinnedOut(all, step) : all);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const auto known = cache != nullptr ? cache->find(asked, shown(candidates[i]), step) : std::nullopt;
+    if (known) {
+      candidates[i].agreement = *known;
+      continue;
+    }
+    unknown.push_back(i);
+    packed.push_back(packedLook(candidates[i].shown));
+  }
+  urban_nav_core::forEach(unknown.size(), 1, [&](std::size_t k) {
+    Candidate& candidate = candidates[unknown[k]];
+    const ComparedFeatures all = unpackPlaceLook(packed[k], places_[candidate.shown]);
+    candidate.agreement = secondLook(own, step > 1 ? thinnedOut(all, step) : all);
   });
+  if (cache == nullptr) return;
+  for (const std::size_t i : unknown) cache->keep(asked, shown(candidates[i]), step, candidates[i].agreement);
 }
 
 /// Compares the other appearances of the candidates, and keeps the best agreement of each.
@@ -174,7 +195,7 @@ void PlaceMatcher::compareAppearances(const DescribedPlace& query, const Compare
       others.push_back({candidates[i].place, candidates[i].log_likelihood, {}, each});
       of_candidate.push_back(i);
     }
-  compareAll(own, 1, others);
+  compareAll(query, own, 1, others);
   for (std::size_t k = 0; k < others.size(); ++k)
     if (others[k].share() > candidates[of_candidate[k]].share()) candidates[of_candidate[k]] = others[k];
 }
@@ -191,7 +212,7 @@ PlaceMatch PlaceMatcher::judge(const DescribedPlace& query, const std::vector<Ca
   match.place = one.place;
   match.session = places_[one.place].session;
   match.log_likelihood = one.log_likelihood;
-  match.agreeing = one.look.agreeing;
+  match.agreeing = one.agreement.agreeing;
   double other_likelihood = -std::numeric_limits<double>::infinity(), other_share = 0.0;
   for (const Candidate& candidate : candidates) {
     if (!isElsewhere(one.place, candidate.place)) continue;
@@ -226,13 +247,13 @@ std::vector<PlaceMatcher::Candidate> PlaceMatcher::comparedCandidates(
     const ComparedFeatures own = unpackPlaceLook(query.look, query);
     const bool is_reduced = candidates.size() > static_cast<std::size_t>(options_.second_looks);
     const bool is_thinned = is_reduced && own.cameras == 1;
-    compareAll(own, is_thinned ? kThinning : 1, candidates);
+    compareAll(query, own, is_thinned ? kThinning : 1, candidates);
     if (is_reduced) {
       std::stable_sort(candidates.begin(), candidates.end(),
                        [](const Candidate& a, const Candidate& b) { return a.share() > b.share(); });
       candidates = selectVaried(candidates, options_.second_looks);
     }
-    if (is_thinned) compareAll(own, 1, candidates);
+    if (is_thinned) compareAll(query, own, 1, candidates);
     if (!groups_.empty()) compareAppearances(query, own, likelihoods.newest, candidates);
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
@@ -276,10 +297,11 @@ PlaceComparison PlaceMatcher::compare(const DescribedPlace& query, std::size_t p
   comparison.is_first = comparison.is_compared && found == candidates.begin();
   if (!comparison.is_compared) {
     candidates.push_back({place, by_words.at_places[place], {}, place});
-    if (options_.second_looks > 0) candidates.back().look = secondLook(unpackPlaceLook(query.look, query), look(place));
+    if (options_.second_looks > 0)
+      candidates.back().agreement = secondLook(unpackPlaceLook(query.look, query), look(place));
     found = candidates.end() - 1;
   }
-  comparison.look = found->look;
+  comparison.look = found->agreement;
   comparison.match = judge(query, candidates, static_cast<std::size_t>(found - candidates.begin()), by_words.at_new);
   comparison.rank_by_words = 1;
   for (std::size_t i = 0; i < by_words.at_places.size(); ++i) {

@@ -11,6 +11,7 @@
 #include "fabmap_node/model/place_model.hpp"
 #include "fabmap_node/places/place_groups.hpp"
 #include "fabmap_node/places/place_index.hpp"
+#include "fabmap_node/recognition/agreement_cache.hpp"
 #include "fabmap_node/recognition/second_look.hpp"
 #include "urban_nav_core/types/stamp.hpp"
 
@@ -23,6 +24,8 @@ struct MatcherOptions {
   std::size_t look_features = 540;  ///< features per single image for descriptor matching; selectFeatures(): 20 kB
   urban_nav_core::StampNs elsewhere = 10'000'000'000;  ///< smallest time between places of one session that are
                                                        ///< elsewhere, ns
+  AgreementCache* known_agreements =
+      nullptr;  ///< agreements of other maps of the same observations; must outlive the matcher
 };
 
 /// Reads packLook() of a place of the map, by the index of its session and its stamp.
@@ -71,7 +74,7 @@ struct PlaceComparison {
 /// the first one admitted, and of all the best is compared.
 ///
 /// matches() is deterministic for any number of threads. Const functions are thread-safe if the reader of descriptors
-/// is.
+/// is, and without MatcherOptions::known_agreements.
 class PlaceMatcher {
  public:
   /// The model must outlive the matcher. `sampled`: observations of places outside the map. With `read_look` the
@@ -116,9 +119,9 @@ class PlaceMatcher {
   struct Candidate {
     std::size_t place = 0;
     double log_likelihood = 0.0;
-    LookAgreement look;
+    LookAgreement agreement;
     std::size_t shown = 0;  // appearance of `place` with this agreement
-    double share() const { return look.share; }
+    double share() const { return agreement.share; }
   };
   bool isElsewhere(std::size_t a, std::size_t b) const;
   bool isNear(std::size_t a, std::size_t b) const;
@@ -136,7 +139,8 @@ class PlaceMatcher {
                                             std::optional<int> compared,
                                             const std::function<bool(std::size_t)>& isCandidate) const;
   double logLikelihoodNew(const WordSet& query) const;
-  void compareAll(const ComparedFeatures& query, std::size_t step, std::vector<Candidate>& candidates) const;
+  void compareAll(const DescribedPlace& query, const ComparedFeatures& own, std::size_t step,
+                  std::vector<Candidate>& candidates) const;
   PlaceMatch judge(const DescribedPlace& query, const std::vector<Candidate>& candidates, std::size_t which,
                    double log_likelihood_new) const;
   bool showSamePlace(const Candidate& best, const Candidate& other) const;

@@ -121,7 +121,7 @@ void Join::relax() {
   const auto run = [&](const char* name) { runStage(stages_, name, *context_, run_.warnings); };
   run("loops");
   run("graph");
-  while (context_->is_divided)
+  while (!context_->isFinal())
     for (const char* name : {"places", "loops", "graph"}) run(name);
   run("lasers");
 }

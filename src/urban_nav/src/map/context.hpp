@@ -17,6 +17,7 @@
 #include "urban_nav_input/session/sessions.hpp"
 #include "urban_nav_registration/keyframe/mounted_camera.hpp"
 #include "urban_nav_store/store.hpp"
+#include "urban_nav_store/tables/place_link.hpp"
 
 namespace urban_nav {
 
@@ -71,12 +72,17 @@ struct MapContext {
   /// Over all sessions: number of the group within which its places are recognised. Empty: one group.
   std::vector<std::size_t> groups;
   bool is_divided = false;  ///< by the last run of the pose graph, which is therefore not final
+  /// Accepted links between places, with which places are recognised again (learnt_links.hpp). nullopt: not yet.
+  std::optional<std::vector<urban_nav_store::PlaceLink>> learnt;
+  bool learns = false;  ///< from the last run of the pose graph, which is therefore not final
   std::vector<urban_nav_core::MetricClosure> between_groups;  ///< rejected candidates, with the reason
 
   /// Returns the number of a session of this run over all sessions. Requires session < sessions.size().
   std::size_t number(std::size_t session) const;
   /// Returns whether the session with this number is one of the previous ones.
   bool isPrevious(std::size_t number) const;
+  /// Returns whether the last run of the pose graph is final; otherwise places are recognised again.
+  bool isFinal() const { return !is_divided && !learns; }
   /// Returns the number of first sessions whose files of an earlier run are kept.
   std::size_t sessionsKept() const { return joins ? 0 : previous.runs.size(); }
   /// Return odometry and store keys over all sessions.

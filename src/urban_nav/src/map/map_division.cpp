@@ -71,6 +71,17 @@ std::vector<std::vector<std::size_t>> sessionsOfGroups(const MapContext& context
   return groups;
 }
 
+bool hasKnownPlaces(const MapContext& context, std::size_t session) {
+  if (session < context.is_frozen.size() && context.is_frozen[session]) return true;
+  return !context.joins && context.isPrevious(session);
+}
+
+std::vector<std::size_t> recognitionOrder(const MapContext& context, std::vector<std::size_t> group) {
+  std::stable_partition(group.begin(), group.end(),
+                        [&](std::size_t session) { return hasKnownPlaces(context, session); });
+  return group;
+}
+
 void divideGroups(const std::vector<std::size_t>& groups, const std::vector<MetricClosure>& closures,
                   const std::vector<ClosureAssessment>& assessments, MapContext& context) {
   std::map<std::string, std::size_t> group;
@@ -88,6 +99,7 @@ void divideGroups(const std::vector<std::size_t>& groups, const std::vector<Metr
       context.between_groups.push_back(rejected(closure, reasons[closurePoses(closure)]));
   }
   context.groups = groups;
+  context.learnt.reset();  // what other groups showed is not known in these
 }
 
 }  // namespace urban_nav

@@ -28,8 +28,16 @@ std::vector<std::size_t> dividedGroups(const MapContext& context, const std::vec
 /// Returns the sessions of each group, in order of their numbers; groups in the order of their first sessions.
 std::vector<std::vector<std::size_t>> sessionsOfGroups(const MapContext& context);
 
-/// Sets the groups of the context. `closures`: with the verdicts of the pose graph, `assessments`. Those between
-/// sessions that are no longer in one group become rejected candidates in MapContext::between_groups.
+/// Returns whether the places of a session are known from the beginning: of a release, or of an earlier run that this
+/// one does not join again.
+bool hasKnownPlaces(const MapContext& context, std::size_t session);
+
+/// Returns the sessions of a group in the order of recognition: those with known places first.
+std::vector<std::size_t> recognitionOrder(const MapContext& context, std::vector<std::size_t> group);
+
+/// Sets the groups of the context, in which nothing is learnt yet. `closures`: with the verdicts of the pose graph,
+/// `assessments`. Those between sessions that are no longer in one group become rejected candidates in
+/// MapContext::between_groups.
 void divideGroups(const std::vector<std::size_t>& groups, const std::vector<urban_nav_core::MetricClosure>& closures,
                   const std::vector<ClosureAssessment>& assessments, MapContext& context);
 

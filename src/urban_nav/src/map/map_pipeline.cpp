@@ -117,7 +117,7 @@ class MapRun {
   void runStages() {
     for (Stage* stage : stages_) {
       runStage(*stage);
-      while (context_.is_divided)
+      while (!context_.isFinal())
         for (Stage* again : stages_)
           if (isRepeatedByMap(again->describe().name)) runStage(*again);
     }

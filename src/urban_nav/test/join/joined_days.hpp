@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands/stages.hpp"
@@ -33,15 +34,27 @@ class JoinedDays : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     shared_ = std::make_unique<urban_nav_input::testing::TemporaryFolder>();
-    const std::vector<std::string> topics = {"/stereo/", "/ladybug/", "/laser_", "/imu/"};
-    testing::cutSharedDrive(file("first.bag"), {0.0, 8.0, topics});
-    testing::cutSharedDrive(file("second.bag"), {14.0, 22.0, topics});
-    testing::cutSharedDrive(file("again.bag"), {0.0, 6.0, topics, "", 1});
+    testing::cutSharedDrive(file("first.bag"), {0.0, 8.0, topics()});
+    testing::cutSharedDrive(file("second.bag"), {14.0, 22.0, topics()});
+    testing::cutSharedDrive(file("again.bag"), {0.0, 6.0, topics(), "", 1});
     for (const char* name : {"first", "second", "again"}) ASSERT_EQ(map({file(std::string(name) + ".bag")}, name), 0);
     ASSERT_EQ(map({file("first.bag"), file("second.bag")}, "both"), 0);
     ASSERT_EQ(map({file("first.bag"), file("again.bag")}, "days"), 0);
   }
-  static void TearDownTestSuite() { shared_.reset(); }
+  static void TearDownTestSuite() {
+    shared_.reset();
+    has_third_ = false;
+  }
+  static std::vector<std::string> topics() { return {"/stereo/", "/ladybug/", "/laser_", "/imu/"}; }
+  /// Makes the first day once more on a third one, and maps all three in one run to "three_days".
+  static void makeThirdDay() {
+    if (std::exchange(has_third_, true)) return;
+    testing::cutSharedDrive(file("third.bag"), {0.0, 6.0, topics(), "", 2});
+    ASSERT_EQ(mapThreeDays("three_days", {"--threads", "2"}), 0);
+  }
+  static int mapThreeDays(const std::string& out, const std::vector<std::string>& options) {
+    return map({file("first.bag"), file("again.bag"), file("third.bag")}, out, options);
+  }
   static std::string file(const std::string& name) { return shared_->file(name); }
   static std::string store(const std::string& name) { return file(name + "/session.db"); }
   static int map(std::vector<std::string> inputs, const std::string& out,
@@ -70,6 +83,7 @@ class JoinedDays : public ::testing::Test {
 
  private:
   static inline std::unique_ptr<urban_nav_input::testing::TemporaryFolder> shared_;
+  static inline bool has_third_ = false;
 };
 
 }  // namespace urban_nav

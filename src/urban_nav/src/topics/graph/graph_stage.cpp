@@ -6,6 +6,7 @@
 #include "base/plot.hpp"
 #include "laser_mapper/parameters.hpp"
 #include "map/closure_notes.hpp"
+#include "map/learnt_links.hpp"
 #include "map/map_base.hpp"
 #include "map/map_division.hpp"
 #include "map/session_fixes.hpp"
@@ -87,6 +88,20 @@ bool isDivided(const MapContext& context, const std::vector<std::size_t>& groups
   return context.divides && groups != (context.groups.empty() ? one : context.groups);
 }
 
+/// Returns the verdicts of the last relaxation on the closures of a run, also before it is complete.
+std::vector<ClosureAssessment> verdictsSoFar(const GraphRun& run) {
+  std::vector<ClosureAssessment> verdicts = run.assessments;
+  for (ClosureAssessment& each : verdicts)
+    if (each.id > 0) each.verdict = run.graph.closures().at(each.id).verdict;
+  return verdicts;
+}
+
+/// Returns whether no stage has to run again after this run, by its relaxation without planes.
+bool isFinalRun(const MapContext& context, const GraphRun& run) {
+  return !isDivided(context, dividedGroups(context, run.maps())) &&
+         !linksToLearn(context, linksOfGraph(context, run.closures, verdictsSoFar(run)));
+}
+
 class GraphStage final : public Stage {
  public:
   Description describe() const override { return {"graph", "pose_graph", true, true, true, {"graph#.g2o"}}; }
@@ -119,6 +134,15 @@ class GraphStage final : public Stage {
     const SessionFixes fixes = usesGps(context) ? readFixes(context) : SessionFixes();
     const std::vector<pose_graph::Edit> edits = pose_graph::readEdits(*context.store, context.ids(), context.names);
     run_ = runGraph(parameters, runs, context.names, closures, previous, grounds, fixes, find_planes, edits);
+    const std::vector<urban_nav_store::PlaceLink> links = linksOfGraph(context, run_->closures, verdictsSoFar(*run_));
+    auto to_learn = linksToLearn(context, links);
+    context.learns = to_learn.has_value();
+    if (context.learns) {
+      context.learnt = std::move(to_learn);
+      return {{"graph: places are recognised again with what " + std::to_string(context.learnt->size()) +
+               " accepted closures show"},
+              {}};
+    }
     const std::vector<std::size_t> groups = dividedGroups(context, run_->maps());
     context.is_divided = isDivided(context, groups);
     if (context.is_divided) {
@@ -127,6 +151,7 @@ class GraphStage final : public Stage {
                " separate maps: places are recognised again within each"},
               {}};
     }
+    storeLinks(*context.store, links);
     std::vector<urban_nav_core::MetricClosure> by_stereo = closures;
     by_stereo.erase(std::remove_if(by_stereo.begin(), by_stereo.end(), isMeasuredByIcp), by_stereo.end());
     if (by_stereo.size() < closures.size()) {
@@ -166,8 +191,10 @@ class GraphStage final : public Stage {
     const laser_mapper::Parameters& parameters = context.options.parameters.get(laser_mapper::table());
     if (!isRequested(context.options, "lasers") || !parameters.constraints) return {};
     const double half_length = context.options.parameters.get(urban_nav_registration::table()).cloud_half_length;
-    return [&parameters, &context, half_length](const GraphRun& run) {
-      if (isDivided(context, dividedGroups(context, run.maps()))) return PlaneClosures();  // the run is not final
+    std::optional<bool> is_final;  // decided once, or planes would be removed that earlier rounds added
+    return [&parameters, &context, half_length, is_final](const GraphRun& run) mutable {
+      if (!is_final) is_final = isFinalRun(context, run);
+      if (!*is_final) return PlaneClosures();
       return findPlaneClosures(parameters, *context.store, context.ids(), run, half_length);
     };
   }

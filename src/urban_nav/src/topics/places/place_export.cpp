@@ -5,6 +5,7 @@
 #include <map>
 
 #include "fabmap_node/store/model_rows.hpp"
+#include "topics/places/stored_verdicts.hpp"
 #include "urban_nav_core/io/atomic_file.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -54,7 +55,8 @@ std::vector<std::string> poseCells(const urban_nav_core::Trajectory& trajectory,
 /// Writes places of sessions one after another.
 class PlaceExportFolder {
  public:
-  PlaceExportFolder(urban_nav_store::Store& store, const fs::path& folder) : store_(store), folder_(folder) {
+  PlaceExportFolder(urban_nav_store::Store& store, const fs::path& folder)
+      : store_(store), folder_(folder), verdicts_(store) {
     makeFolder(folder_ / kThumbnailFolder);
   }
 
@@ -63,8 +65,8 @@ class PlaceExportFolder {
     TableStore<StoredPlace>(store_).forEach(stored.session.id, [&](const StoredPlace& row) {
       std::vector<std::string> cells = {stored.map, stored.session.id, std::to_string(row.stamp)};
       for (std::string& cell : poseCells(trajectory, row.stamp)) cells.push_back(std::move(cell));
-      for (const std::string& cell :
-           {std::to_string(row.cameras), std::to_string(row.missing), row.status, row.model, writeThumbnail(row)})
+      for (const std::string& cell : {std::to_string(row.cameras), std::to_string(row.missing), row.status, row.model,
+                                      writeThumbnail(row), verdicts_.find(row.session, row.stamp)})
         cells.push_back(cell);
       table_ += urban_nav_core::printCsvRow(cells);
       ++made_.places;
@@ -97,7 +99,8 @@ class PlaceExportFolder {
 
   urban_nav_store::Store& store_;
   const fs::path folder_;
-  std::string table_ = "map,session,stamp_ns,x,y,z,qx,qy,qz,qw,cameras,missing,status,model,thumbnail\n";
+  const StoredVerdicts verdicts_;
+  std::string table_ = "map,session,stamp_ns,x,y,z,qx,qy,qz,qw,cameras,missing,status,model,thumbnail,verdict\n";
   std::map<std::string, std::string> models_;  // bytes by hash
   ExportedPlaces made_;
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fabmap_node/store/place_rows.hpp"
+#include "map/learnt_links.hpp"
 #include "map/map_division.hpp"
 #include "urban_nav_store/table_store.hpp"
 
@@ -19,43 +20,39 @@ using urban_nav_store::TableStore;
 
 namespace {
 
-/// Returns whether the places of a session are known from the beginning.
-bool isKnown(const MapContext& context, std::size_t session) {
-  if (session < context.is_frozen.size() && context.is_frozen[session]) return true;
-  return !context.joins && context.isPrevious(session);
-}
-
-/// Returns the sessions of a group: first those whose places are known.
-std::vector<std::size_t> knownFirst(const MapContext& context, std::vector<std::size_t> group) {
-  std::stable_partition(group.begin(), group.end(), [&](std::size_t session) { return isKnown(context, session); });
-  return group;
-}
-
 /// Recognition among the sessions of one group. Adds to a common result.
 class GroupRecognition {
  public:
   GroupRecognition(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model, const MapContext& context,
-                   const std::vector<std::size_t>& group, PlacesRun& result)
+                   const std::vector<std::size_t>& group, fabmap_node::AgreementCache* known_agreements,
+                   PlacesRun& result)
       : model_(model),
         context_(context),
         ids_(context.ids()),
-        order_(knownFirst(context, group)),
-        map_(model.model, parameters,
-             [this](std::size_t session, urban_nav_core::StampNs stamp) {
-               StoredPlace key;
-               key.session = ids_[order_[session]];
-               key.stamp = stamp;
-               const auto row = TableStore<StoredPlace>(*context_.store).get(key);
-               return row ? row->descriptors : std::string();
-             }),
-        result_(result) {}
+        order_(recognitionOrder(context, group)),
+        map_(
+            model.model, parameters,
+            [this](std::size_t session, urban_nav_core::StampNs stamp) {
+              StoredPlace key;
+              key.session = ids_[order_[session]];
+              key.stamp = stamp;
+              const auto row = TableStore<StoredPlace>(*context_.store).get(key);
+              return row ? row->descriptors : std::string();
+            },
+            known_agreements),
+        learnt_(knownLinks(context)),
+        result_(result) {
+    if (known_agreements != nullptr) known_agreements->beginMap(order_);
+  }
 
   /// Returns the number of places with words of another model.
   std::size_t run() {
     const std::vector<const SessionOdometry*> runs = context_.runs();
     for (const std::size_t s : order_) {
       map_.beginSession(context_.names[s]);
-      addSession(s, ids_[s], travelledDistance(*runs[s]), isKnown(context_, s));
+      travelled_[ids_[s]] = travelledDistance(*runs[s]);
+      addSession(s, ids_[s], travelled_[ids_[s]], hasKnownPlaces(context_, s));
+      learn(s);
     }
     result_.places += map_.places();
     return other_model_;
@@ -81,6 +78,21 @@ class GroupRecognition {
     });
   }
 
+  /// Confirms the links from a session, which was recognised last, to places of this and of earlier sessions.
+  void learn(std::size_t s) {
+    for (const urban_nav_store::PlaceLink& link : learnt_) {
+      const auto earlier = travelled_.find(link.earlier);
+      if (link.session != ids_[s] || earlier == travelled_.end()) continue;
+      const auto a = static_cast<std::size_t>(std::find(ids_.begin(), ids_.end(), link.earlier) - ids_.begin());
+      map_.confirm({{context_.names[a], link.earlier_stamp},
+                    {context_.names[s], link.stamp},
+                    earlier->second.at(link.earlier_stamp),
+                    travelled_.at(link.session).at(link.stamp),
+                    link.metres,
+                    link.same_direction != 0});
+    }
+  }
+
   void count(const fabmap_node::PlaceDescription& description) {
     ++result_.observations;
     result_.has_panoramas = result_.has_panoramas || description.cameras > 1;
@@ -91,8 +103,10 @@ class GroupRecognition {
   const LoadedPlaceModel& model_;
   const MapContext& context_;
   const std::vector<urban_nav_store::SessionId> ids_;
-  const std::vector<std::size_t> order_;  // of sessions
+  const std::vector<std::size_t> order_;  // of sessions, as they are recognised
   FabMap map_;                            // with descriptors from the store
+  const std::vector<urban_nav_store::PlaceLink> learnt_;
+  std::map<urban_nav_store::SessionId, TravelledDistance> travelled_;  // of recognised sessions
   PlacesRun& result_;
   std::size_t other_model_ = 0;
 };
@@ -105,13 +119,13 @@ TravelledDistance travelledDistance(const SessionOdometry& run) {
   return travelled;
 }
 
-PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model,
-                    const MapContext& context) {
+PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model, const MapContext& context,
+                    fabmap_node::AgreementCache* known_agreements) {
   PlacesRun result;
   result.beliefs.resize(context.names.size());
   std::size_t other_model = 0;
   for (const std::vector<std::size_t>& group : sessionsOfGroups(context))
-    other_model += GroupRecognition(parameters, model, context, group, result).run();
+    other_model += GroupRecognition(parameters, model, context, group, known_agreements, result).run();
   if (other_model > 0)
     result.warnings.push_back(std::to_string(other_model) +
                               " places of previous sessions have words of a different model and are not used");

@@ -29,9 +29,10 @@ struct PlacesRun {
 
 /// Recognises the places of the sessions of this run, or of all sessions if it joins them, in order, from the rows of
 /// the store. Places of other sessions are in the map from the beginning. Each group of sessions (MapContext::groups)
-/// has a map of its own. The result does not depend on the number of threads.
-PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model,
-                    const MapContext& context);
+/// has a map of its own. The result does not depend on the number of threads. `known_agreements`: of earlier calls for
+/// the same sessions, which it only makes faster; null: none are kept.
+PlacesRun runPlaces(const fabmap_node::Parameters& parameters, const LoadedPlaceModel& model, const MapContext& context,
+                    fabmap_node::AgreementCache* known_agreements = nullptr);
 
 /// Returns distances along the smoothed odometry of a session, which is in the store, so that places do not depend on
 /// whether it was read by this or an earlier run.

@@ -42,8 +42,10 @@ class PlacesStage final : public Stage {
   }
 
   Messages run(MapContext& context) override {
-    run_ = runPlaces(context.options.parameters.get(fabmap_node::table()), *model(context), context);
-    if (!context.groups.empty()) context.closures = context.given;  // instead of those within larger groups
+    run_ = runPlaces(context.options.parameters.get(fabmap_node::table()), *model(context), context,
+                     context.divides ? &known_agreements_ : nullptr);
+    if (!context.groups.empty() || context.learnt)
+      context.closures = context.given;  // instead of those of the recognition before
     if (isRequested(context.options, "loops")) addProposed(run_->closures, "places", context.closures);
     if (run_->observations == 0) return {{}, run_->warnings};
     return {{"places: " + std::to_string(run_->observations) + (run_->has_panoramas ? " panoramas, " : " images, ") +
@@ -70,6 +72,7 @@ class PlacesStage final : public Stage {
 
   std::shared_ptr<const LoadedPlaceModel> model_;
   std::vector<double> ms_features_;
+  fabmap_node::AgreementCache known_agreements_;  // of the recognitions of one run
   std::optional<PlacesRun> run_;
 };
 
