@@ -9,7 +9,7 @@ namespace scene_labeler {
 namespace {
 
 constexpr float kLeastLocalShare = 5.5F / 27.0F;  // six cubes
-constexpr std::array<std::size_t, 4> kFixedLevels = {1, 2, 3, 4};
+constexpr std::array<std::size_t, 2> kFixedLevels = {1, 2};
 
 float edgeOfLevel(std::size_t level) { return kFinestCube * static_cast<float>(1U << level); }
 
@@ -22,15 +22,15 @@ std::size_t localLevel(const ShapesOfPoint& shapes) {
 }  // namespace
 
 std::vector<std::string> cloudFeatureNames() {
-  std::vector<std::string> names = {"over_ground",  "over_lowest_1", "over_lowest_3", "below_highest",
-                                    "column_extent", "highest_3",    "raised_1",      "raised_3",
-                                    "linearity",     "planarity",    "scatter",       "normal_z",
-                                    "tangent_z",     "vertical",     "off_mean",      "spacing"};
+  std::vector<std::string> names = {"over_ground",   "over_lowest_1", "over_lowest_3", "below_highest",
+                                    "column_extent", "highest_1",     "raised_1",      "relative_roughness",
+                                    "linearity",     "planarity",     "scatter",       "normal_z",
+                                    "tangent_z",     "vertical",      "off_mean",      "spacing"};
   for (const std::size_t level : kFixedLevels)
     for (const char* value :
          {"linearity", "planarity", "scatter", "normal_z", "tangent_z", "roughness", "vertical", "off_mean"})
       names.push_back(std::string(value) + "_" + urban_nav_core::printNumber(edgeOfLevel(level)));
-  for (const char* value : {"highest_1", "relative_roughness", "off_plane"}) names.emplace_back(value);
+  names.emplace_back("off_plane");
   return names;
 }
 
@@ -38,11 +38,13 @@ void writeCloudFeatures(const ShapesOfPoint& shapes, const ColumnHeights& height
                         float* out) {
   const SurroundingTops& tops = heights.tops;
   for (const float value : {heights.over_ground, heights.over_lowest_1, heights.over_lowest_3, heights.below_highest,
-                            heights.column_extent, tops.highest_3, tops.raised_1, tops.raised_3})
+                            heights.column_extent, tops.highest_1, tops.raised_1})
     *out++ = value;
   const std::size_t level = localLevel(shapes);
   const CubeShape& local = *shapes[level];
   const float edge = edgeOfLevel(level);
+  if (local.is_known) *out = local.roughness / edge;
+  ++out;
   if (local.is_known) {
     out[0] = local.linearity;
     out[1] = local.planarity;
@@ -68,10 +70,7 @@ void writeCloudFeatures(const ShapesOfPoint& shapes, const ColumnHeights& height
     }
     out += 8;
   }
-  out[0] = tops.highest_1;
-  if (!local.is_known) return;
-  out[1] = local.roughness / edge;
-  out[2] = std::abs(local.normal.dot(point - local.mean)) / edge;
+  if (local.is_known) *out = std::abs(local.normal.dot(point - local.mean)) / edge;
 }
 
 }  // namespace scene_labeler

@@ -16,22 +16,17 @@ constexpr float kColumnEdge = 0.5F;   // m
 constexpr float kGroundSlope = 0.2F;  // steeper ground is rare on campuses and streets
 constexpr int kGroundReach = 30;      // columns: 15 m
 
-constexpr float kRaised = 0.5F;       // m: kerbs and meadows are lower, vehicles and hedges higher
-constexpr std::size_t kMostColumnsWithin3 = 113;  // integer places within six columns
+constexpr float kRaised = 0.5F;                  // m: kerbs and meadows are lower, vehicles and hedges higher
+constexpr std::size_t kMostColumnsWithin1 = 13;  // integer places within two columns
 
-/// `tops`: heights of `count` columns within 3 m, those within 1 m first.
-SurroundingTops summariseTops(const float* tops, std::size_t near, std::size_t count, float low) {
+SurroundingTops summariseTops(const float* tops, std::size_t count, float low) {
   SurroundingTops result;
   std::size_t raised = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (i == near) result.raised_1 = static_cast<float>(raised) / static_cast<float>(near);
-    const float height = tops[i] - low;
-    raised += height > kRaised ? 1U : 0U;
-    result.highest_3 = std::max(result.highest_3, height);
-    if (i < near) result.highest_1 = result.highest_3;
+    result.highest_1 = std::max(result.highest_1, tops[i] - low);
+    raised += tops[i] - low > kRaised ? 1U : 0U;
   }
-  result.raised_3 = static_cast<float>(raised) / static_cast<float>(count);
-  if (near == count) result.raised_1 = result.raised_3;
+  result.raised_1 = static_cast<float>(raised) / static_cast<float>(count);
   return result;
 }
 
@@ -75,8 +70,8 @@ void ColumnGrid::extend(std::uint32_t number, float z) {
 ColumnGrid::Surrounding ColumnGrid::measureSurrounding(std::uint32_t number) const {
   const Column& column = columns_[number];
   Surrounding result{column.low, column.low, column.low, column.high, {}};
-  std::array<float, kMostColumnsWithin3> tops{};
-  std::size_t near = 0, count = 0;  // the tops within 1 m come first
+  std::array<float, kMostColumnsWithin1> tops{};
+  std::size_t count = 0;
   for (int j = -6; j <= 6; ++j)
     for (int i = -6; i <= 6; ++i) {
       const int square = i * i + j * j;
@@ -85,13 +80,12 @@ ColumnGrid::Surrounding ColumnGrid::measureSurrounding(std::uint32_t number) con
       if (other == CellTable::kNone) continue;
       const Column& neighbour = columns_[other];
       result.low_3 = std::min(result.low_3, neighbour.low);
-      tops[count++] = neighbour.high;
       if (square > 4) continue;
-      std::swap(tops[count - 1], tops[near++]);
+      tops[count++] = neighbour.high;
       result.low_1 = std::min(result.low_1, neighbour.low);
       result.high_1 = std::max(result.high_1, neighbour.high);
     }
-  result.tops = summariseTops(tops.data(), near, count, result.low_3);
+  result.tops = summariseTops(tops.data(), count, result.low_3);
   constexpr int kCoarseReach = kGroundReach / 4;  // of squares of four columns
   for (int j = -kCoarseReach; j <= kCoarseReach; ++j)
     for (int i = -kCoarseReach; i <= kCoarseReach; ++i) {

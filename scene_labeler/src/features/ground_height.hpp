@@ -9,10 +9,10 @@
 
 namespace scene_labeler {
 
-/// Tops of the squares of 0.5 m around a return, over the lowest return within 3 m of its vertical.
+/// Tops of the squares of 0.5 m within 1 m of the vertical through a return, over the lowest return within 3 m.
 struct SurroundingTops {
-  float highest_1 = 0.0F, highest_3 = 0.0F;  ///< within 1 m and 3 m, m
-  float raised_1 = 0.0F, raised_3 = 0.0F;    ///< share of the squares there that hold returns higher than 0.5 m
+  float highest_1 = 0.0F;  ///< m
+  float raised_1 = 0.0F;   ///< share of the squares that hold returns higher than 0.5 m
 };
 
 /// Heights around a return, m.

@@ -135,7 +135,8 @@ GrowingCloud::Distinct distinctNumbers(const std::vector<std::uint32_t>& numbers
 
 }  // namespace
 
-GrowingCloud::Distinct GrowingCloud::distinctCubes(std::size_t level, const std::vector<Eigen::Vector3f>& points) const {
+GrowingCloud::Distinct GrowingCloud::distinctCubes(std::size_t level,
+                                                   const std::vector<Eigen::Vector3f>& points) const {
   std::vector<std::uint32_t> cubes;
   cubes.reserve(points.size());
   for (const Eigen::Vector3f& point : points) cubes.push_back(findCube(level, point));
@@ -177,8 +178,7 @@ void GrowingCloud::measureCloud(const std::vector<Eigen::Vector3f>& points, Feat
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (cubes[0].index_of[i] == CellTable::kNone) continue;
     ShapesOfPoint around;
-    for (std::size_t level = 0; level < kCubeLevels; ++level)
-      around[level] = &shapes[level][cubes[level].index_of[i]];
+    for (std::size_t level = 0; level < kCubeLevels; ++level) around[level] = &shapes[level][cubes[level].index_of[i]];
     writeCloudFeatures(around, heights[i], points[i] - *origin_, table.row(i));
   }
 }

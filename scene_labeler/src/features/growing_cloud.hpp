@@ -53,7 +53,7 @@ class GrowingCloud {
   std::uint32_t findCube(std::size_t level, const Eigen::Vector3f& point) const;
 
   std::optional<Eigen::Vector3f> origin_;
-  CubeLevels levels_;                                      // normalised, as makeCubeLevels()
+  CubeLevels levels_;                                     // normalised, as makeCubeLevels()
   std::array<std::vector<Moments>, kCubeLevels> sums_{};  // before normalisation
   ColumnGrid columns_;
   std::vector<std::uint32_t> column_of_;  // for each cube of the height level

@@ -115,7 +115,8 @@ void measureShape(const Scene& scene, bool with_reflectance, std::size_t first, 
   }
   writeHeights(levels[kHeightLevel], first, table);
   if (with_reflectance)
-    writeReflectance(levels, normalisedReflectance(scene, levels[kShapeLevels - 1], shapes), first + kHeightValues, table);
+    writeReflectance(levels, normalisedReflectance(scene, levels[kShapeLevels - 1], shapes), first + kHeightValues,
+                     table);
 }
 
 std::vector<Eigen::Vector3f> measureNormals(const std::vector<Eigen::Vector3f>& points) {

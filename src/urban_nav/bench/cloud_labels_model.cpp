@@ -39,8 +39,8 @@ std::vector<CloudDrive> cloudDrives() {
   for (const auto& world : kWorlds)
     for (std::size_t route = 1; route < world.size(); ++route)
       for (std::size_t i = 0; i < (route == 1 ? kDevices.size() : 3); ++i, ++seed)
-        drives.push_back({world[0], world[route], seed, 1 + static_cast<int>(seed % 6), kDevices[i].first,
-                          kDevices[i].second});
+        drives.push_back(
+            {world[0], world[route], seed, 1 + static_cast<int>(seed % 6), kDevices[i].first, kDevices[i].second});
   return drives;
 }
 
@@ -90,7 +90,9 @@ struct Tally {
 };
 
 void tryOn(const scene_labeler::LabelModel& model, const std::string& world, const std::string& folder) {
-  std::printf("| drive | points | right, %% | sure, %% | of these right, %% | found/right by class, %% |\n|---|---|---|---|---|---|\n");
+  std::printf(
+      "| drive | points | right, %% | sure, %% | of these right, %% | found/right by class, %% "
+      "|\n|---|---|---|---|---|---|\n");
   Tally all;
   for (const CloudDrive& drive : cloudDrives()) {
     if (drive.world != world) continue;

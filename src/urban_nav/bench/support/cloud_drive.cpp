@@ -51,7 +51,7 @@ SeenBeams seenBeams(const urban_nav_core::Sweep& sweep, const urban_nav_sim::Vie
   return seen;
 }
 
-urban_nav_sim::SessionOptions optionsOf(const CloudDrive& drive) {
+urban_nav_sim::SessionOptions sessionOptions(const CloudDrive& drive) {
   urban_nav_sim::SessionOptions options;
   options.world = drive.world;
   options.route = drive.route;
@@ -105,7 +105,7 @@ class ReturnCollector {
 };
 
 DriveReturns simulate(const CloudDrive& drive) {
-  urban_nav_sim::Session session(optionsOf(drive));
+  urban_nav_sim::Session session(sessionOptions(drive));
   ReturnCollector collector(session);
   std::map<StampNs, urban_nav_sim::LidarMeasurement> sweeps;
   std::map<std::pair<std::string, StampNs>, urban_nav_sim::LaserMeasurement> scans;
@@ -114,7 +114,7 @@ DriveReturns simulate(const CloudDrive& drive) {
       sweeps[lidar->stamp] = std::move(*lidar);
     if (auto* laser = std::get_if<urban_nav_sim::LaserMeasurement>(&arrival->measurement)) {
       const char* frame = laser->side == urban_nav_sim::Side::Left ? urban_nav_core::frames::kLaserLeft
-                                                                    : urban_nav_core::frames::kLaserRight;
+                                                                   : urban_nav_core::frames::kLaserRight;
       const StampNs stamp = laser->scan.stamp;
       scans[{frame, stamp}] = std::move(*laser);
     }
@@ -140,7 +140,8 @@ std::vector<float> toNumbers(const std::vector<Eigen::Vector3f>& points) {
 
 std::vector<Eigen::Vector3f> toPoints(const std::vector<float>& numbers) {
   std::vector<Eigen::Vector3f> points;
-  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+    points.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
   return points;
 }
 
