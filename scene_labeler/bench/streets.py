@@ -23,15 +23,20 @@ OAKLAND = {
     1501: "vehicle", **{k: "ignore" for k in (*range(1000, 1006), 1202, 9999)}}
 
 
-def copy_scenes(source, target):
+RELLIS = {0: "ignore", 1: "dirt_path", 3: "grass", 4: "foliage", 7: "ignore", 8: "vehicle", 10: "paved", 12: "wall", 19: "foliage", 23: "paved",
+          33: "dirt_path", **{k: "other" for k in (5, 6, 9, 15, 17, 18, 27, 31, 34)}}
+
+
+def copy_scenes(source, target, has_images=True):
     target.mkdir(parents=True)
     for path in source:
         name = path.name.replace("_points.csv.gz", "").replace(".csv.gz", "")
         shutil.copy(path, target / f"{name}_points.csv.gz")
-        image = path.parent / f"{name}.jpg"
-        if image.exists():
-            shutil.copy(image, target)
-            shutil.copy(path.parent.parent / "projection.txt", target)
+        image = next((one for one in (path.parent / f"{name}.jpg", path.parent / "image.jpg") if one.exists()), None)
+        if has_images and image:
+            shutil.copy(image, target / f"{name}.jpg")
+            folder = path.parent if (path.parent / "projection.txt").exists() else path.parent.parent
+            shutil.copy(folder / "projection.txt", target)
 
 
 def run(*words):
@@ -44,19 +49,34 @@ def run(*words):
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def try_default(command, work, sets):
-    """Evaluates the default model, which is not trained on these data sets."""
-    print("\n| set | paved, precision and recall, % | walls found, % | not unsure, % | of these right, % | calibration error |\n|---|---|---|---|---|---|")
-    for name in sets:
-        result_file = work / "default.json"
-        run(command, "labels", "evaluate", "default", work / name / "validation", "--classes", work / name / "classes.csv", "--json", result_file)
-        said = json.loads(result_file.read_text())
-        rows = said["sure_confusion"]["rows"]
-        sure = sum(map(sum, rows))
-        right = sum(row[k] for k, row in enumerate(rows))
-        paved, wall = said["classes"]["paved"], said["classes"]["wall"]
-        print(f"| {name} | {100 * paved['precision']:.0f}, {100 * paved['recall']:.0f} | {100 * wall['recall']:.0f} | {100 * sure / said['points']:.0f} | "
-              f"{100 * right / max(1, sure):.0f} | {said['calibration_error']:.3f} |", flush=True)
+def evaluate_default(command, folder, table):
+    """Returns the cells of the default model, which is not trained on these data sets, on a folder of scenes."""
+    result_file = folder / "default.json"
+    run(command, "labels", "evaluate", "default", folder, "--classes", table, "--json", result_file)
+    said = json.loads(result_file.read_text())
+    sure_rows, points = said["sure_confusion"]["rows"], said["points"]
+    sure = sum(map(sum, sure_rows))
+    right = sum(row[k] for k, row in enumerate(sure_rows))
+    found = ", ".join(f"{name} {100 * one['recall']:.0f}" for name, one in said["classes"].items() if one["points"] >= 100)
+    return (f"{points} | {100 * said['accuracy']:.0f} | {100 * sure / points:.0f} | {100 * right / max(1, sure):.1f} | "
+            f"{100 * (sure - right) / points:.1f} | {found} | {said['calibration_error']:.3f}")
+
+
+def try_default(data, command, work):
+    """Evaluates the default model on all clouds, with their images and without."""
+    sets = [(f"kitti_0005 {part}", sorted((data / "kitti_0005" / part).glob("*_points.csv.gz")), KITTI) for part in ("train", "validation")]
+    sets += [(f"oakland {path.name[:-7]}", [path], OAKLAND) for path in sorted((data / "oakland").glob("*.csv.gz"))]
+    sets.append(("rellis_frame", [data / "rellis_frame/points.csv.gz"], RELLIS))
+    print("\n| cloud | points | right, % | sure, % | of these right, % | wrong and sure, % | found by class, % | calibration error |\n|---|---|---|---|---|---|---|---|")
+    for name, source, classes in sets:
+        table = work / "classes_of_default.csv"
+        table.write_text("id,class\n" + "".join(f"{k},{v}\n" for k, v in sorted(classes.items())))
+        for has_images in (False, True):
+            folder = work / f"default_{name}_{has_images}".replace(" ", "_")
+            copy_scenes(source, folder, has_images)
+            if has_images and not list(folder.glob("*.jpg")):
+                continue
+            print(f"| {name}{', image' if has_images else ''} | {evaluate_default(command, folder, table)} |", flush=True)
 
 
 def main():
@@ -88,7 +108,7 @@ def main():
                       + ", ".join(f"{c} {100 * v:.0f}" for c, v in f1.items())
                       + f" | {said['calibration_error']:.3f} | {100 * said['unsure_share']:.0f} % | {seconds:.0f} | "
                       f"{1e6 * labelling / said['points']:.0f} |", flush=True)
-        try_default(command, work, sets)
+        try_default(data, command, work)
 
 
 if __name__ == "__main__":

@@ -35,12 +35,14 @@ struct CubeLevel {
   std::vector<std::uint32_t> cube_of;  ///< per point; CellTable::none for points that are not finite
 };
 
-/// Cubes of 0.1, 0.2 and 0.4 m. A neighbourhood of 2.4 m (cubes of 0.8 m) or more describes the layout of the few
-/// training places rather than the surface.
+/// Cubes of 0.1, 0.2 and 0.4 m, of FeatureSet::All. A neighbourhood of 2.4 m (cubes of 0.8 m) or more describes the
+/// layout of the few training places rather than the surface.
 constexpr std::size_t kShapeLevels = 3;
+/// Cubes up to 1.6 m, for clouds in which smaller ones around a return hold nothing else (FeatureSet::Cloud).
+constexpr std::size_t kCubeLevels = 5;
 constexpr float kFinestCube = 0.1F;  ///< m
 
-using CubeLevels = std::array<CubeLevel, kShapeLevels>;
+using CubeLevels = std::array<CubeLevel, kCubeLevels>;
 
 /// Returns the cell of a key.
 urban_nav_registration::Cell cellOfKey(std::uint64_t key);

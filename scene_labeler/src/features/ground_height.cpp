@@ -2,6 +2,7 @@
 #include "features/ground_height.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "urban_nav_core/parallel/for_each.hpp"
@@ -14,6 +15,20 @@ using urban_nav_registration::CellTable;
 constexpr float kColumnEdge = 0.5F;   // m
 constexpr float kGroundSlope = 0.2F;  // steeper ground is rare on campuses and streets
 constexpr int kGroundReach = 30;      // columns: 15 m
+
+constexpr float kRaised = 0.5F;                  // m: kerbs and meadows are lower, vehicles and hedges higher
+constexpr std::size_t kMostColumnsWithin1 = 13;  // integer places within two columns
+
+SurroundingTops summariseTops(const float* tops, std::size_t count, float low) {
+  SurroundingTops result;
+  std::size_t raised = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    result.highest_1 = std::max(result.highest_1, tops[i] - low);
+    raised += tops[i] - low > kRaised ? 1U : 0U;
+  }
+  result.raised_1 = static_cast<float>(raised) / static_cast<float>(count);
+  return result;
+}
 
 std::uint64_t columnKey(int x, int y) { return urban_nav_registration::toKey({x, y, 0}); }
 
@@ -54,7 +69,9 @@ void ColumnGrid::extend(std::uint32_t number, float z) {
 // which may be long and thin.
 ColumnGrid::Surrounding ColumnGrid::measureSurrounding(std::uint32_t number) const {
   const Column& column = columns_[number];
-  Surrounding result{column.low, column.low, column.low, column.high};
+  Surrounding result{column.low, column.low, column.low, column.high, {}};
+  std::array<float, kMostColumnsWithin1> tops{};
+  std::size_t count = 0;
   for (int j = -6; j <= 6; ++j)
     for (int i = -6; i <= 6; ++i) {
       const int square = i * i + j * j;
@@ -64,9 +81,11 @@ ColumnGrid::Surrounding ColumnGrid::measureSurrounding(std::uint32_t number) con
       const Column& neighbour = columns_[other];
       result.low_3 = std::min(result.low_3, neighbour.low);
       if (square > 4) continue;
+      tops[count++] = neighbour.high;
       result.low_1 = std::min(result.low_1, neighbour.low);
       result.high_1 = std::max(result.high_1, neighbour.high);
     }
+  result.tops = summariseTops(tops.data(), count, result.low_3);
   constexpr int kCoarseReach = kGroundReach / 4;  // of squares of four columns
   for (int j = -kCoarseReach; j <= kCoarseReach; ++j)
     for (int i = -kCoarseReach; i <= kCoarseReach; ++i) {
@@ -83,7 +102,8 @@ ColumnHeights ColumnGrid::measureHeights(std::uint32_t number, const Surrounding
   const Column& column = columns_[number];
   const float extent = column.high - column.low;
   return {z - around.ground, z - around.low_1, z - around.low_3,
-          around.high_1 - z, extent,           column.cubes / (extent / edge + 1.0F)};
+          around.high_1 - z, extent,           column.cubes / (extent / edge + 1.0F),
+          around.tops};
 }
 
 std::vector<ColumnHeights> measureHeights(const CubeLevel& level) {

@@ -9,6 +9,12 @@
 
 namespace scene_labeler {
 
+/// Tops of the squares of 0.5 m within 1 m of the vertical through a return, over the lowest return within 3 m.
+struct SurroundingTops {
+  float highest_1 = 0.0F;  ///< m
+  float raised_1 = 0.0F;   ///< share of the squares that hold returns higher than 0.5 m
+};
+
 /// Heights around a return, m.
 struct ColumnHeights {
   float over_ground = 0.0F;    ///< above the lower envelope of the cloud, which rises by at most 0.2 per m
@@ -17,12 +23,13 @@ struct ColumnHeights {
   float below_highest = 0.0F;  ///< below the highest return within 1 m
   float column_extent = 0.0F;  ///< of the returns in the surrounding square of 0.5 m
   float filled = 0.0F;         ///< share of the cubes of 0.2 m between the lowest and the highest return of the square
+  SurroundingTops tops;
 };
 
 constexpr std::size_t kHeightLevel = 1;   ///< level of the cubes from which heights are computed: 0.2 m
 constexpr std::size_t kHeightValues = 6;  ///< features
 
-/// Writes the kHeightValues features.
+/// Writes the kHeightValues features, without the tops.
 void writeHeights(const ColumnHeights& heights, float* out);
 
 /// Columns of 0.5 m with the lowest and highest of their cubes. Cubes can be added and can move.
@@ -31,6 +38,7 @@ class ColumnGrid {
   /// Heights of the lower envelope at a column.
   struct Surrounding {
     float ground = 0.0F, low_1 = 0.0F, low_3 = 0.0F, high_1 = 0.0F;
+    SurroundingTops tops;
   };
 
   explicit ColumnGrid(std::size_t expected = 16) : table_(expected), coarse_table_(expected / 8 + 16) {}

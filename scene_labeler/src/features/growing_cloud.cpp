@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "features/cloud_features.hpp"
 #include "features/cube_shape.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 #include "urban_nav_registration/cloud/cell_table.hpp"
@@ -72,7 +73,7 @@ void GrowingCloud::update(std::size_t level, std::uint64_t key, const Moments& c
     if (cube == column_of_.size()) column_of_.push_back(columns_.add(inMiddle(key, z)));
     else columns_.extend(column_of_[cube], z);
   }
-  if (level + 1 < kShapeLevels) update(level + 1, coarserKey(key), coarse_change);
+  if (level + 1 < kCubeLevels) update(level + 1, coarserKey(key), coarse_change);
 }
 
 void GrowingCloud::keepAround(const Eigen::Vector3f& place, float reach) {
@@ -81,8 +82,8 @@ void GrowingCloud::keepAround(const Eigen::Vector3f& place, float reach) {
   kept.origin_ = origin_;
   const Eigen::Vector3d middle = (place - *origin_).cast<double>();
   const double square = static_cast<double>(reach) * static_cast<double>(reach);
-  constexpr std::size_t kCoarsest = kShapeLevels - 1;
-  for (std::size_t level = kShapeLevels; level-- > 0;) {
+  constexpr std::size_t kCoarsest = kCubeLevels - 1;
+  for (std::size_t level = kCubeLevels; level-- > 0;) {
     const CubeLevel& cubes = levels_[level];
     kept.levels_[level].table = CellTable(cubes.cubes.size() / 2 + 16);
     for (std::size_t cube = 0; cube < cubes.cubes.size(); ++cube) {
@@ -114,13 +115,8 @@ std::uint32_t GrowingCloud::findCube(std::size_t level, const Eigen::Vector3f& p
 
 namespace {
 
-/// Distinct ones of the numbers of points, and for each point the index of its number.
-struct Distinct {
-  std::vector<std::uint32_t> numbers, index_of;
-};
-
-Distinct distinctNumbers(const std::vector<std::uint32_t>& numbers, std::size_t count) {
-  Distinct distinct;
+GrowingCloud::Distinct distinctNumbers(const std::vector<std::uint32_t>& numbers, std::size_t count) {
+  GrowingCloud::Distinct distinct;
   std::vector<std::uint32_t> index(count, CellTable::kNone);
   distinct.index_of.reserve(numbers.size());
   for (const std::uint32_t number : numbers) {
@@ -139,15 +135,25 @@ Distinct distinctNumbers(const std::vector<std::uint32_t>& numbers, std::size_t 
 
 }  // namespace
 
-void GrowingCloud::measureLevel(std::size_t level, const std::vector<Eigen::Vector3f>& points, FeatureSet set,
-                                std::size_t first, FeatureTable& table) const {
+GrowingCloud::Distinct GrowingCloud::distinctCubes(std::size_t level,
+                                                   const std::vector<Eigen::Vector3f>& points) const {
   std::vector<std::uint32_t> cubes;
   cubes.reserve(points.size());
   for (const Eigen::Vector3f& point : points) cubes.push_back(findCube(level, point));
-  const Distinct distinct = distinctNumbers(cubes, levels_[level].cubes.size());
-  std::vector<CubeShape> shapes(distinct.numbers.size());
+  return distinctNumbers(cubes, levels_[level].cubes.size());
+}
+
+std::vector<CubeShape> GrowingCloud::measureShapes(std::size_t level, const std::vector<std::uint32_t>& cubes) const {
+  std::vector<CubeShape> shapes(cubes.size());
   urban_nav_core::forEach(shapes.size(), kFewCubes,
-                          [&](std::size_t i) { shapes[i] = shapeAround(levels_[level], distinct.numbers[i]); });
+                          [&](std::size_t i) { shapes[i] = shapeAround(levels_[level], cubes[i]); });
+  return shapes;
+}
+
+void GrowingCloud::measureLevel(std::size_t level, const std::vector<Eigen::Vector3f>& points, FeatureSet set,
+                                std::size_t first, FeatureTable& table) const {
+  const Distinct distinct = distinctCubes(level, points);
+  const std::vector<CubeShape> shapes = measureShapes(level, distinct.numbers);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (distinct.index_of[i] == CellTable::kNone) continue;
     const CubeShape& shape = shapes[distinct.index_of[i]];
@@ -161,8 +167,23 @@ void GrowingCloud::measureLevel(std::size_t level, const std::vector<Eigen::Vect
   }
 }
 
-void GrowingCloud::measureColumns(const std::vector<Eigen::Vector3f>& points, FeatureSet set, std::size_t first,
-                                  FeatureTable& table) const {
+void GrowingCloud::measureCloud(const std::vector<Eigen::Vector3f>& points, FeatureTable& table) const {
+  std::array<std::vector<CubeShape>, kCubeLevels> shapes;
+  std::array<Distinct, kCubeLevels> cubes;
+  for (std::size_t level = 0; level < kCubeLevels; ++level) {
+    cubes[level] = distinctCubes(level, points);
+    shapes[level] = measureShapes(level, cubes[level].numbers);
+  }
+  const std::vector<ColumnHeights> heights = measureHeights(points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (cubes[0].index_of[i] == CellTable::kNone) continue;
+    ShapesOfPoint around;
+    for (std::size_t level = 0; level < kCubeLevels; ++level) around[level] = &shapes[level][cubes[level].index_of[i]];
+    writeCloudFeatures(around, heights[i], points[i] - *origin_, table.row(i));
+  }
+}
+
+std::vector<ColumnHeights> GrowingCloud::measureHeights(const std::vector<Eigen::Vector3f>& points) const {
   const CubeLevel& level = levels_[kHeightLevel];
   std::vector<std::uint32_t> cubes, columns;
   for (const Eigen::Vector3f& point : points) {
@@ -173,12 +194,22 @@ void GrowingCloud::measureColumns(const std::vector<Eigen::Vector3f>& points, Fe
   std::vector<ColumnGrid::Surrounding> around(distinct.numbers.size());
   urban_nav_core::forEach(around.size(), kFewCubes,
                           [&](std::size_t i) { around[i] = columns_.measureSurrounding(distinct.numbers[i]); });
+  std::vector<ColumnHeights> heights(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (cubes[i] == CellTable::kNone) continue;
     const auto z = static_cast<float>(level.cubes[cubes[i]].mean().z());
-    const ColumnHeights heights = columns_.measureHeights(columns[i], around[distinct.index_of[i]], z, level.edge);
-    if (set == FeatureSet::Paper) table.row(i)[first] = heights.over_ground;
-    else writeHeights(heights, table.row(i) + first);
+    heights[i] = columns_.measureHeights(columns[i], around[distinct.index_of[i]], z, level.edge);
+  }
+  return heights;
+}
+
+void GrowingCloud::measureColumns(const std::vector<Eigen::Vector3f>& points, FeatureSet set, std::size_t first,
+                                  FeatureTable& table) const {
+  const std::vector<ColumnHeights> heights = measureHeights(points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (findCube(kHeightLevel, points[i]) == CellTable::kNone) continue;
+    if (set == FeatureSet::Paper) table.row(i)[first] = heights[i].over_ground;
+    else writeHeights(heights[i], table.row(i) + first);
   }
 }
 
@@ -186,7 +217,9 @@ FeatureTable GrowingCloud::measure(const std::vector<Eigen::Vector3f>& points, F
   FeatureTable table;
   table.names = featureNames(set);
   table.values.assign(table.names.size() * points.size(), kMissingFeature);
-  if (set == FeatureSet::Paper) {
+  if (set == FeatureSet::Cloud) {
+    measureCloud(points, table);
+  } else if (set == FeatureSet::Paper) {
     measureColumns(points, set, 0, table);
     measureLevel(kPaperLevel, points, set, 1, table);
   } else {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "features/cloud_features.hpp"
 #include "features/cube_moments.hpp"
 #include "features/cube_shape.hpp"
 #include "features/ground_height.hpp"
@@ -108,24 +109,39 @@ void measureShape(const Scene& scene, bool with_reflectance, std::size_t first, 
   const Eigen::Vector3f origin = chooseOrigin(scene.points);
   const CubeLevels levels = makeCubeLevels(scene.points, origin);
   std::vector<CubeShape> shapes;
-  for (const CubeLevel& level : levels) {
-    shapes = measureShapes(level);
-    writeLevel(level, shapes, scene, origin, first, table);
-    first += kShapeValues;
+  for (std::size_t i = 0; i < kShapeLevels; ++i, first += kShapeValues) {
+    shapes = measureShapes(levels[i]);
+    writeLevel(levels[i], shapes, scene, origin, first, table);
   }
   writeHeights(levels[kHeightLevel], first, table);
   if (with_reflectance)
-    writeReflectance(levels, normalisedReflectance(scene, levels.back(), shapes), first + kHeightValues, table);
+    writeReflectance(levels, normalisedReflectance(scene, levels[kShapeLevels - 1], shapes), first + kHeightValues,
+                     table);
 }
 
 std::vector<Eigen::Vector3f> measureNormals(const std::vector<Eigen::Vector3f>& points) {
   const CubeLevels levels = makeCubeLevels(points, chooseOrigin(points));
-  const std::vector<CubeShape> shapes = measureShapes(levels.back());
+  const CubeLevel& level = levels[kShapeLevels - 1];
+  const std::vector<CubeShape> shapes = measureShapes(level);
   std::vector<Eigen::Vector3f> normals(points.size(), Eigen::Vector3f::Zero());
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (const std::uint32_t cube = levels.back().cube_of[i]; cube != CellTable::kNone && shapes[cube].isPlane())
+    if (const std::uint32_t cube = level.cube_of[i]; cube != CellTable::kNone && shapes[cube].isPlane())
       normals[i] = shapes[cube].normal;
   return normals;
+}
+
+void measureCloudShape(const Scene& scene, FeatureTable& table) {
+  const Eigen::Vector3f origin = chooseOrigin(scene.points);
+  const CubeLevels levels = makeCubeLevels(scene.points, origin);
+  std::array<std::vector<CubeShape>, kCubeLevels> shapes;
+  for (std::size_t i = 0; i < kCubeLevels; ++i) shapes[i] = measureShapes(levels[i]);
+  const std::vector<ColumnHeights> heights = measureHeights(levels[kHeightLevel]);
+  urban_nav_core::forEach(scene.points.size(), 4096, [&](std::size_t i) {
+    if (levels[0].cube_of[i] == CellTable::kNone) return;
+    ShapesOfPoint around;
+    for (std::size_t level = 0; level < kCubeLevels; ++level) around[level] = &shapes[level][levels[level].cube_of[i]];
+    writeCloudFeatures(around, heights[levels[kHeightLevel].cube_of[i]], scene.points[i] - origin, table.row(i));
+  });
 }
 
 std::vector<std::string> paperShapeNames() { return {"over_ground", "normal_z", "planarity"}; }

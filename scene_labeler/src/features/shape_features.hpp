@@ -15,6 +15,9 @@ std::vector<std::string> shapeFeatureNames();
 /// Writes the cloud features into columns `first`, `first` + 1, ... of a table with a row per return.
 void measureShape(const Scene& scene, bool with_reflectance, std::size_t first, FeatureTable& table);
 
+/// Writes the features of FeatureSet::Cloud (cloud_features.hpp) into a table with a row per return.
+void measureCloudShape(const Scene& scene, FeatureTable& table);
+
 /// Returns the unit normal of the surface around each point, of either sign; zero without a surface.
 std::vector<Eigen::Vector3f> measureNormals(const std::vector<Eigen::Vector3f>& points);
 

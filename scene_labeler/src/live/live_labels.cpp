@@ -20,16 +20,15 @@ StampNs scanEnd(const urban_nav_core::PlanarScan& scan) {
   return scan.stamp + static_cast<StampNs>(std::llround(1e9 * std::max(seconds, 0.0)));
 }
 
-std::shared_ptr<const LabelModel> withPrecision(LabelModel model, double precision) {
-  model.precision = precision;
-  return std::make_shared<const LabelModel>(std::move(model));
+std::shared_ptr<const LabelModel> shareWithPrecision(LabelModel model, double precision) {
+  return std::make_shared<const LabelModel>(withPrecision(std::move(model), precision));
 }
 
 }  // namespace
 
 LiveLabels::LiveLabels(const Parameters& parameters, LabelModel model, Outputs outputs)
     : parameters_(parameters),
-      model_(withPrecision(std::move(model), parameters.precision)),
+      model_(shareWithPrecision(std::move(model), parameters.precision)),
       teaching_(parameters, model_),
       outputs_(std::move(outputs)),
       sweeps_(trajectory_, outputs_.sweep) {
@@ -87,7 +86,7 @@ bool LiveLabels::adoptTaughtModel() {
     side.labeler.reset();
   }
   sweeps_.clear();
-  model_ = withPrecision(std::move(*taught), parameters_.precision);
+  model_ = shareWithPrecision(std::move(*taught), parameters_.precision);
   return true;
 }
 

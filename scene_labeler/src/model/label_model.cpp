@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "urban_nav_core/io/file_kind.hpp"
 #include "urban_nav_core/io/text_file.hpp"
@@ -52,7 +53,7 @@ std::uint32_t LabelModel::countOutside(const float* row) const {
 
 void LabelModel::archive(urban_nav_core::Archive& archive) {
   archive(kind, features, classes, bins);
-  archive.require(kind <= ClassifierKind::Boosted && features <= FeatureSet::All, "its classifier is unknown");
+  archive.require(kind <= ClassifierKind::Boosted && features <= FeatureSet::Cloud, "its classifier is unknown");
   if (archive.isReading()) {
     bool is_sound = classes.size() >= 2 && bins.columns() == featureNames(features).size();
     for (std::size_t i = 0; i < classes.size(); ++i)
@@ -68,6 +69,19 @@ void LabelModel::archive(urban_nav_core::Archive& archive) {
                       correlation >= 0.0 && correlation <= 1.0 && novelty.low_values.size() == bins.columns() &&
                       novelty.high_values.size() == bins.columns(),
                   "the sizes of its parts differ");
+}
+
+const LabelModel& modelFor(const LabelModel& model, const std::string& device) {
+  return model.of_other_devices && device != model.device ? *model.of_other_devices : model;
+}
+
+LabelModel withPrecision(LabelModel model, double precision) {
+  model.precision = precision;
+  if (!model.of_other_devices) return model;
+  LabelModel other = *model.of_other_devices;
+  other.precision = precision;
+  model.of_other_devices = std::make_shared<const LabelModel>(std::move(other));
+  return model;
 }
 
 std::string printModel(LabelModel model) {

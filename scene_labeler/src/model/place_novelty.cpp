@@ -64,6 +64,7 @@ bool PlaceNovelty::Aspect::hasNear(const Codes& codes) const {
 }
 
 void PlaceNovelty::Aspect::learn(const ModelSamples& stored, std::size_t row_length) {
+  if (columns.empty()) return;
   if (columns.size() > kMostColumns) columns.resize(kMostColumns);
   std::vector<std::uint16_t> places;
   for (std::size_t sample = 0; sample < stored.size(); ++sample) {

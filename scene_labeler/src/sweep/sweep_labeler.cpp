@@ -33,7 +33,10 @@ struct SweepLabeler::Cloud {
 };
 
 SweepLabeler::SweepLabeler(std::shared_ptr<const LabelModel> model, int superpixel)
-    : model_(std::move(model)), superpixel_(superpixel), frequencies_(*model_), cloud_(std::make_unique<Cloud>()) {}
+    : model_(model->of_other_devices ? model->of_other_devices : std::move(model)),
+      superpixel_(superpixel),
+      frequencies_(*model_),
+      cloud_(std::make_unique<Cloud>()) {}
 SweepLabeler::~SweepLabeler() = default;
 SweepLabeler::SweepLabeler(SweepLabeler&&) noexcept = default;
 SweepLabeler& SweepLabeler::operator=(SweepLabeler&&) noexcept = default;

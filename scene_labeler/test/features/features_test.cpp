@@ -63,12 +63,72 @@ TEST(Features, DoNotDependOnTheDensityOfTheBeams) {
     EXPECT_NEAR(featureAt(once, i, "normal_z_0.4"), featureAt(dense, i, "normal_z_0.4"), 0.05F);
 }
 
+constexpr float kHeightTolerance = 0.2F;  // m: a height is that of the mean of its cube
+
+/// A wall at y = 5 and the ground before it in horizontal lines `spacing` apart, as of the rings of a LiDAR.
+Scene makeRings(float spacing) {
+  Scene scene;
+  for (float across = 0.0F; across < 5.0F; across += spacing)
+    for (int i = 0; i < 200; ++i) {
+      scene.points.emplace_back(0.05F * static_cast<float>(i), 5.0F, across);
+      scene.points.emplace_back(0.05F * static_cast<float>(i), across, 0.0F);
+    }
+  return scene;
+}
+
+TEST(Features, OfCloudsAreThoseOfSurfacesHoweverFarApartTheRingsAre) {
+  for (const float spacing : {0.05F, 0.3F, 0.7F}) {
+    const Scene scene = makeRings(spacing);
+    const FeatureTable table = measureFeatures(scene, FeatureSet::Cloud);
+    std::size_t checked = 0;
+    for (std::size_t i = 0; i < scene.points.size(); ++i) {
+      const Eigen::Vector3f& p = scene.points[i];
+      const bool is_wall = p.y() == 5.0F;
+      const float across = is_wall ? p.z() : p.y();
+      if (p.x() < 3.0F || p.x() > 7.0F || across < 1.8F || across > 2.8F) continue;
+      ++checked;
+      ASSERT_NEAR(featureAt(table, i, "normal_z"), is_wall ? 0.0F : 1.0F, 0.02F) << spacing;
+      ASSERT_NEAR(featureAt(table, i, "scatter"), 0.0F, 0.05F) << spacing;
+      ASSERT_LT(featureAt(table, i, "linearity"), 0.75F) << spacing;
+      ASSERT_NEAR(featureAt(table, i, "over_ground"), is_wall ? across : 0.0F, kHeightTolerance) << spacing;
+    }
+    EXPECT_GT(checked, 100U);
+  }
+}
+
+TEST(Features, OfCloudsHaveAScaleThatGrowsWithTheSpacing) {
+  const auto scaleAt = [](float spacing) {
+    const Scene scene = makeRings(spacing);
+    const FeatureTable table = measureFeatures(scene, FeatureSet::Cloud);
+    for (std::size_t i = 0; i < scene.points.size(); ++i)
+      if (scene.points[i].y() == 5.0F && scene.points[i].z() > 2.0F && scene.points[i].x() > 4.0F)
+        return featureAt(table, i, "spacing");
+    return -1.0F;
+  };
+  EXPECT_EQ(scaleAt(0.05F), 0.0F);
+  EXPECT_LT(scaleAt(0.05F), scaleAt(0.3F));
+  EXPECT_LT(scaleAt(0.3F), scaleAt(0.9F));
+}
+
+TEST(Features, OfCloudsShowWhatRisesAroundAReturn) {
+  const Scene scene = makeBox();
+  const FeatureTable table = measureFeatures(scene, FeatureSet::Cloud);
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    const Eigen::Vector3f& p = scene.points[i];
+    const bool is_under_plate = p.z() == 0.0F && (p - Eigen::Vector3f(3, 3, 0)).norm() < 0.05F;
+    const bool is_corner = p.z() == 0.0F && p.head<2>().norm() < 0.05F;
+    if (!is_under_plate && !is_corner) continue;
+    EXPECT_NEAR(featureAt(table, i, "highest_1"), is_corner ? 0.0F : 2.0F, 1e-3F);
+    EXPECT_NEAR(featureAt(table, i, "raised_1"), is_corner ? 0.0F : 1.0F, 0.2F) << "squares at the edge of the plate";
+  }
+}
+
 TEST(Features, OfReturnsThatAreNotFiniteAreMissing) {
   Scene scene = makeBox();
   scene.points[7].x() = std::numeric_limits<float>::quiet_NaN();
   scene.points[9].z() = std::numeric_limits<float>::infinity();
   scene.reflectance.assign(scene.points.size(), 0.5F);
-  for (const FeatureSet set : {FeatureSet::Paper, FeatureSet::All}) {
+  for (const FeatureSet set : {FeatureSet::Paper, FeatureSet::All, FeatureSet::Cloud}) {
     const FeatureTable table = measureFeatures(scene, set);
     for (std::size_t column = 0; column < table.columns(); ++column) {
       EXPECT_TRUE(std::isnan(table.row(7)[column]));

@@ -26,7 +26,9 @@ std::vector<Eigen::Vector3f> sparseYard(unsigned seed) {
 constexpr float kCubeOfHeights = 0.2F;  // m: heights refer to past means of these cubes too
 
 bool isHeight(const std::string& name) {
-  return name.rfind("over_", 0) == 0 || name == "below_highest" || name == "column_extent";
+  for (const char* begin : {"over_", "highest_", "raised_"})
+    if (name.rfind(begin, 0) == 0) return true;
+  return name == "below_highest" || name == "column_extent";
 }
 
 /// Compares features, and returns the share of the heights that differ by more than a cube.
@@ -56,7 +58,7 @@ FeatureTable measureAtOnce(const std::vector<Eigen::Vector3f>& points, FeatureSe
 
 TEST(GrowingCloud, HasTheFeaturesOfAllPointsAtOnceHoweverTheyWereAdded) {
   const std::vector<Eigen::Vector3f> points = sparseYard(3);
-  for (const FeatureSet set : {FeatureSet::All, FeatureSet::Paper}) {
+  for (const FeatureSet set : {FeatureSet::All, FeatureSet::Paper, FeatureSet::Cloud}) {
     GrowingCloud at_once, in_parts;
     at_once.add(points);
     for (std::size_t part = 0; part < 7; ++part) {
@@ -83,7 +85,8 @@ TEST(GrowingCloud, ForgetsWhatIsFarAway) {
   GrowingCloud alone;
   alone.add(points);
   EXPECT_EQ(cloud.size(), alone.size());
-  EXPECT_LT(compare(cloud.measure(points, FeatureSet::All), alone.measure(points, FeatureSet::All)), 0.01);
+  for (const FeatureSet set : {FeatureSet::All, FeatureSet::Cloud})
+    EXPECT_LT(compare(cloud.measure(points, set), alone.measure(points, set)), 0.01);
 }
 
 TEST(GrowingCloud, IgnoresPointsWithoutAPlace) {

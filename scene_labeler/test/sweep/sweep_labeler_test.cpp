@@ -93,6 +93,21 @@ TEST(SweepLabeler, ForgetsThePlacesThatTheSensorHasLeft) {
   EXPECT_LT(of_all, 12 * once.cloudSize());
 }
 
+TEST(SweepLabeler, UsesTheModelOfOtherDevicesIfThereIsOne) {
+  const testing::Yard yard = testing::makeYard(55);
+  const auto clouds =
+      std::make_shared<const LabelModel>(testing::trainOnYards(ClassifierKind::Boosted, FeatureSet::Cloud));
+  LabelModel both = *yardModel();
+  both.of_other_devices = clouds;
+  SweepLabeler labeler(std::make_shared<const LabelModel>(both), 12), of_clouds(clouds, 12), of_one(yardModel(), 12);
+  const auto probabilities = [&](SweepLabeler& one) {
+    return one.label(everyFifth(yard, 0), kPlace).answers.probabilities;
+  };
+  const std::vector<float> answer = probabilities(labeler);
+  EXPECT_EQ(answer, probabilities(of_clouds));
+  EXPECT_NE(answer, probabilities(of_one));
+}
+
 TEST(SweepLabeler, DoesNotDependOnTheNumberOfThreads) {
   const testing::Yard yard = testing::makeYard(54);
   const auto label = [&] {

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Makes scene_labeler/config/default.labels: drives through simulated worlds whose seeds no test, bench or demo uses, on
+# Makes scene_labeler/config/default.labels, the model of the robot's side lasers; that of other clouds is made by
+# cloud_labels_model.cpp. Drives through simulated worlds whose seeds no test, bench or demo uses, on
 # days of different light and season, and the model that `labels train` learns from their true classes.
 # Takes some three quarters of an hour on one core. The model holds samples, so that it can be taught.
 # Usage: default_labels_model.sh [FOLDER for the bags, default: a temporary one]

@@ -70,7 +70,8 @@ int run(int argc, char** argv) {
   auto begin = Clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
   SceneTeacher::Options options;
-  const SceneTeacher teacher(readLabelModel(argv[1]).model, argv[1], readScene(files).scene, options);
+  const SceneInput input = readScene(files);
+  const SceneTeacher teacher(chooseModel(input, readLabelModel(argv[1]).model), argv[1], input.scene, options);
   report(0, teacher.answer(), truth, seconds());
   begin = Clock::now();
   const TeachUnits units(teacher.scene(), options.training.superpixel);

@@ -10,6 +10,7 @@ namespace scene_labeler {
 enum class FeatureSet : std::uint8_t {
   Paper,  ///< height, normal, histograms of hue and saturation (Newman et al. 2009, section 8.1)
   All,    ///< shape at several scales, height and spread, reflectance, colour and gradients
+  Cloud,  ///< shape at the scale of the local spacing and at fixed ones, heights: for clouds of any device and density
 };
 const char* toString(FeatureSet set);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,12 +41,15 @@ struct LabelModel {
   Calibration patch_calibration;  ///< of the fused scores of patches
   double correlation = 1.0;       ///< of the errors of returns within a patch, 0...1
   NoveltyRanges novelty;
-  std::string device;                ///< device of the reflectance in training; that of other devices is ignored
-  std::vector<std::string> sources;  ///< names of the training scenes or sessions
-  ModelSamples samples;              ///< for continued training; empty in models of version 2
-  PlaceNovelty place_novelty;        ///< computed from the samples; not in the file
-  SureThresholds sure;               ///< empty in models of version 3
+  std::string device;                     ///< device of the reflectance in training; that of other devices is ignored
+  std::vector<std::string> sources;       ///< names of the training scenes or sessions
+  ModelSamples samples;                   ///< for continued training; empty in models of version 2
+  PlaceNovelty place_novelty;             ///< computed from the samples; not in the file
+  SureThresholds sure;                    ///< empty in models of version 3
   double precision = kStandardPrecision;  ///< share of the sure answers that is to be right; not in the file
+  /// Model for scenes of other devices, of which this one knows neither light nor density; null: this one. Not in the
+  /// file.
+  std::shared_ptr<const LabelModel> of_other_devices;
 
   /// Writes log probabilities of a row of features, one per class.
   void logProbabilities(const float* row, float* logs) const;
@@ -55,15 +59,24 @@ struct LabelModel {
   void archive(urban_nav_core::Archive& archive);
 };
 
+/// Returns the model for scenes of a device (Scene::device): `model`, or its model of other devices.
+const LabelModel& modelFor(const LabelModel& model, const std::string& device);
+
+/// Returns a model whose sure answers, also those of its model of other devices, are to be right in the share
+/// `precision`.
+LabelModel withPrecision(LabelModel model, double precision);
+
 /// Returns the bytes of a model, with its version and a checksum.
 std::string printModel(LabelModel model);
 /// Reads a model of this or a previous version. Throws UserError with `name` if the bytes are damaged, not a model,
 /// or of another version.
 LabelModel parseModel(std::string_view bytes, const std::string& name);
 
-/// Return the built-in model, trained on simulated drives, and its bytes.
+/// Return the built-in model, trained on simulated drives of the robot, and its bytes. Its model of other devices is
+/// that of the clouds of simulated 3D LiDARs and push-broom lasers, by shape.
 LabelModel defaultModel();
 std::string_view defaultModelBytes();
+std::string_view defaultCloudModelBytes();
 /// Reads the model given by the parameter `model`: a file, or `default`. Throws UserError like parseModel().
 LabelModel readModel(const std::string& path);
 

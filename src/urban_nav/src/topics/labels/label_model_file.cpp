@@ -9,7 +9,9 @@ namespace {
 
 NamedLabelModel readNamedModel(const std::string& path) {
   if (path == "default")
-    return {scene_labeler::defaultModel(), scene_labeler::modelDigest(scene_labeler::defaultModelBytes())};
+    return {scene_labeler::defaultModel(),
+            scene_labeler::modelDigest(std::string(scene_labeler::defaultModelBytes()) +
+                                       std::string(scene_labeler::defaultCloudModelBytes()))};
   const std::string bytes = urban_nav_core::readBytes(path);
   return {scene_labeler::parseModel(bytes, path), scene_labeler::modelDigest(bytes)};
 }
@@ -18,7 +20,7 @@ NamedLabelModel readNamedModel(const std::string& path) {
 
 NamedLabelModel readLabelModel(const std::string& path, double precision) {
   NamedLabelModel named = readNamedModel(path);
-  named.model.precision = precision;
+  named.model = scene_labeler::withPrecision(std::move(named.model), precision);
   return named;
 }
 

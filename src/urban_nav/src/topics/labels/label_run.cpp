@@ -48,7 +48,7 @@ void labelScenes(const scene_labeler::LabelModel& model, const std::vector<Scene
     const SceneInput input = readScene(scenes[i]);
     const scene_labeler::Scene& scene = input.scene;
     const auto begin = LabelClock::now();
-    scene_labeler::SceneLabels labels = scene_labeler::labelScene(model, scene, superpixel);
+    scene_labeler::SceneLabels labels = scene_labeler::labelScene(chooseModel(input, model), scene, superpixel);
     const double seconds = std::chrono::duration<double>(LabelClock::now() - begin).count();
     run.seconds += seconds;
     run.milliseconds.push_back(1e3 * seconds);

@@ -6,6 +6,7 @@
 
 #include "scene_labeler/parameters.hpp"
 #include "scene_labeler/training/train.hpp"
+#include "topics/labels/drive_bag.hpp"
 #include "topics/labels/label_clicks.hpp"
 #include "topics/labels/label_model_file.hpp"
 #include "topics/labels/scene_files.hpp"
@@ -25,6 +26,16 @@ namespace {
 
 bool isClickFile(const std::string& path) {
   return urban_nav_core::endsWith(path, ".csv") && urban_nav_core::CsvTable::read(path).has("bag");
+}
+
+/// Returns whether training data are of scenes only, and not of the robot's side lasers.
+bool isOfOtherDevice(const std::vector<std::string>& sources, const std::string& corrections) {
+  if (std::any_of(sources.begin(), sources.end(), [](const std::string& source) { return isBag(source); }))
+    return false;
+  if (corrections.empty()) return !sources.empty();
+  if (isClickFile(corrections)) return false;
+  const std::vector<SceneFiles> found = findScenes({corrections});
+  return found.size() != 1 || !readScene(found.front()).is_of_side_lasers;
 }
 
 urban_nav_core::DataError nothingCorrected(const std::string& path) {
@@ -88,12 +99,13 @@ LabelModel trainWithCorrections(const LabelModel& base, std::vector<TrainingFold
 
 LabelModel teachByCorrections(const LabelModel& base, const std::string& name, const SceneCorrections& corrections,
                               const CorrectionTraining& options) {
-  requireSamples(base, name);
-  std::vector<TrainingFold> folds = scene_labeler::restoreFolds(base);
-  const auto count = scene_labeler::addCorrections(base, corrections.input.scene, corrections.labels,
-                                                   options.superpixel, correctionsFold(corrections.name, folds), folds);
+  const LabelModel& own = chooseModel(corrections.input, base);
+  requireSamples(own, name);
+  std::vector<TrainingFold> folds = scene_labeler::restoreFolds(own);
+  const auto count = scene_labeler::addCorrections(own, corrections.input.scene, corrections.labels, options.superpixel,
+                                                   correctionsFold(corrections.name, folds), folds);
   if (count.empty()) throw nothingCorrected(corrections.files.points);
-  return trainWithCorrections(base, std::move(folds), options);
+  return trainWithCorrections(own, std::move(folds), options);
 }
 
 LabelTeaching::LabelTeaching(const Arguments& arguments) {
@@ -109,6 +121,8 @@ LabelTeaching::LabelTeaching(const Arguments& arguments) {
   }
   const std::string path = arguments.get("add");
   base_ = readLabelModel(path).model;
+  if (base_->of_other_devices && isOfOtherDevice(arguments.all("SRC"), corrections_))
+    base_ = LabelModel(*base_->of_other_devices);
   requireSamples(*base_, path);
   if (arguments.has("features") && features_ != base_->features)
     throw UserError("--features", toString(features_), std::string(toString(base_->features)) + ", those of " + path);

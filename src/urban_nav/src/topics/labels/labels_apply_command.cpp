@@ -91,15 +91,20 @@ void writeScene(const std::string& base, const LabelFormats& formats, const Scen
   if (!labels.image.empty()) writeLabelImage(labels.image, base + ".png");
 }
 
-scene_labeler::LabelModel readAppliedModel(const Arguments& arguments, const ParameterSet& parameters,
-                                           Console& console) {
+scene_labeler::LabelModel readAppliedModel(const Arguments& arguments, const ParameterSet& parameters) {
   const double precision = arguments.number("precision", parameters.get(scene_labeler::table()).precision,
                                             kLowestPrecision, kHighestPrecision);
-  const std::string path = arguments.get("MODEL");
-  scene_labeler::LabelModel model = readLabelModel(path, precision).model;
-  const std::string note = scene_labeler::thresholdNote(model.sure, precision, path);
+  return readLabelModel(arguments.get("MODEL"), precision).model;
+}
+
+/// Returns the model whose thresholds are in the results: that of bags if there are any.
+const scene_labeler::LabelModel& reportedModel(const scene_labeler::LabelModel& model, const LabelSources& sources) {
+  return sources.bags.empty() ? scene_labeler::modelFor(model, "") : model;
+}
+
+void warnOfThresholds(const scene_labeler::LabelModel& model, const std::string& name, Console& console) {
+  const std::string note = scene_labeler::thresholdNote(model.sure, model.precision, name);
   if (!note.empty()) console.warn(note);
-  return model;
 }
 
 /// Corrections of --corrections, by which the model is taught before it is applied.
@@ -118,10 +123,11 @@ std::optional<SceneCorrections> applyCorrections(const Arguments& arguments, con
 int runLabelsApply(const OdometryRunner& run_odometry, const Arguments& arguments, Console& console) {
   const ParameterSet parameters = loadParameters(arguments);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
-  scene_labeler::LabelModel model = readAppliedModel(arguments, parameters, console);
+  scene_labeler::LabelModel model = readAppliedModel(arguments, parameters);
   const std::optional<SceneCorrections> corrections = applyCorrections(arguments, parameters, console, model);
   const LabelFormats formats = readLabelFormats(arguments);
   const LabelSources sources = findLabelSources(arguments, parameters, run_odometry);
+  warnOfThresholds(reportedModel(model, sources), arguments.get("MODEL"), console);
   const std::vector<SceneFiles>& scenes = sources.scenes;
   for (std::size_t i = 1; i < scenes.size(); ++i)
     if (scenes[i].name == scenes[i - 1].name)
@@ -145,7 +151,8 @@ int runLabelsApply(const OdometryRunner& run_odometry, const Arguments& argument
                std::to_string(run.frames) + " scenes are labelled, " + std::to_string(run.unsure) + " of them unsure" +
                (run.has_look ? "" : "; without images: by shape only"));
   warnOfNewPlace(run, console);
-  if (arguments.has("json")) urban_nav_core::writeAtomically(arguments.get("json"), run.toJson(model).print());
+  if (arguments.has("json"))
+    urban_nav_core::writeAtomically(arguments.get("json"), run.toJson(reportedModel(model, sources)).print());
   return 0;
 }
 
@@ -170,15 +177,18 @@ bool hasOneWall(const scene_labeler::LabelModel& model, const SourceTruth& truth
   const auto holds = [](const std::vector<scene_labeler::SceneClass>& classes) {
     return std::find(classes.begin(), classes.end(), scene_labeler::SceneClass::Wall) != classes.end();
   };
-  return holds(model.classes) || std::any_of(truth.scenes.begin(), truth.scenes.end(), holds);
+  const bool has_scenes = !truth.scenes.empty();
+  return holds(model.classes) || (has_scenes && holds(scene_labeler::modelFor(model, "").classes)) ||
+         std::any_of(truth.scenes.begin(), truth.scenes.end(), holds);
 }
 
 int runLabelsEvaluate(const OdometryRunner& run_odometry, const Arguments& arguments, Console& console) {
   const ParameterSet parameters = loadParameters(arguments);
   const urban_nav_core::ThreadLimit threads(static_cast<int>(arguments.integer("threads", 0, 1, 1024)));
-  const scene_labeler::LabelModel model = readAppliedModel(arguments, parameters, console);
+  const scene_labeler::LabelModel model = readAppliedModel(arguments, parameters);
   const ClassMap map = readClassMap(arguments);
   const LabelSources sources = findLabelSources(arguments, parameters, run_odometry);
+  warnOfThresholds(reportedModel(model, sources), arguments.get("MODEL"), console);
   const SourceTruth truth = readSourceTruth(sources, map);
   LabelScore score(hasOneWall(model, truth));
   LabelRun run;
@@ -202,7 +212,7 @@ int runLabelsEvaluate(const OdometryRunner& run_odometry, const Arguments& argum
   console.print(score.print());
   warnOfNewPlace(run, console);
   if (arguments.has("json")) {
-    Json json = run.toJson(model);
+    Json json = run.toJson(reportedModel(model, sources));
     score.addTo(json);
     urban_nav_core::writeAtomically(arguments.get("json"), json.print());
   }

@@ -231,6 +231,14 @@ std::vector<PointLabel> labelPoints(const LabelModel& model, const scene_labeler
   return labels;
 }
 
+bool hasSideLasers(urban_nav_store::Store& store, const std::vector<laser_mapper::MappedSession>& sessions) {
+  std::vector<urban_nav_store::SessionId> ids;
+  for (const laser_mapper::MappedSession& session : sessions) ids.push_back(session.id);
+  const std::vector<laser_mapper::SensorName> sensors = laser_mapper::storedSensors(store, ids);
+  return std::any_of(sensors.begin(), sensors.end(),
+                     [](const auto& sensor) { return sensor.id < laser_mapper::kFirstLidar; });
+}
+
 LabelledMap labelMap(const NamedLabelModel& model, std::size_t number,
                      const std::vector<laser_mapper::MappedSession>& sessions, const ClassImagesOfSessions& classes,
                      MapContext& context, std::vector<double>& milliseconds) {
@@ -241,8 +249,11 @@ LabelledMap labelMap(const NamedLabelModel& model, std::size_t number,
   made.file = "map" + fileSuffix(number) + ".ply";
   const PlannedViews planned = planViews(*context.store, sessions, parameters.spacing);
   MapPointsDigest digest;
+  const bool has_side_lasers = hasSideLasers(*context.store, sessions);
+  const LabelModel& own = has_side_lasers || !planned.views.empty() ? model.model : modelFor(model.model, "");
+  made.threshold_note = scene_labeler::thresholdNote(own.sure, parameters.precision, parameters.model);
   const std::vector<PointLabel> labels =
-      labelPoints(model.model, parameters, map, planned, *context.store, classes, digest, made, milliseconds);
+      labelPoints(own, parameters, map, planned, *context.store, classes, digest, made, milliseconds);
   made.points = labels.size();
   for (const PointLabel& label : labels) {
     if (label.label == SceneClass::None) continue;
@@ -297,12 +308,12 @@ LabelsRun runLabels(const NamedLabelModel& model, MapContext& context) {
   const ClassImagesOfSessions classes = findClassImages(parameters, context);
   LabelsRun run;
   run.model = model.digest;
-  run.threshold_note = scene_labeler::thresholdNote(model.model.sure, parameters.precision, parameters.model);
   run.class_topic = parameters.class_topic;
   Progress bar(context.console, "labels", "maps", static_cast<std::int64_t>(maps_of_lasers.size()));
   for (const auto& [map, sessions] : sessions_of_map) {
     if (maps_of_lasers.count(map) == 0) continue;
     run.maps.push_back(labelMap(model, map, sessions, classes, context, run.milliseconds));
+    if (run.threshold_note.empty()) run.threshold_note = run.maps.back().threshold_note;
     bar.update(static_cast<std::int64_t>(run.maps.size()));
   }
   bar.finish(static_cast<std::int64_t>(run.maps.size()));

@@ -34,7 +34,8 @@ struct LabelledMap {
   std::array<ClassExtent, scene_labeler::kClassCount> extents;
   std::vector<scene_labeler::Instance> instances;  ///< vehicles, people and poles
   std::vector<PagePicture> pictures;
-  std::string layer;  ///< markup of the classes in the view of the map; empty without points
+  std::string layer;           ///< markup of the classes in the view of the map; empty without points
+  std::string threshold_note;  ///< of thresholdNote() of the model that labelled it
 };
 
 /// Result of stage labels.
@@ -42,7 +43,7 @@ struct LabelsRun {
   std::vector<LabelledMap> maps;
   std::vector<double> milliseconds;  ///< of each image
   std::string model;                 ///< digest
-  std::string threshold_note;        ///< of thresholdNote()
+  std::string threshold_note;        ///< the first one of the maps
   std::string class_topic;           ///< of class images from another source; empty: none
   double seconds = 0.0;
 

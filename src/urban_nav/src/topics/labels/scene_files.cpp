@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/matrix_file.hpp"
+#include "laser_mapper/sensors.hpp"
 #include "urban_nav_core/io/cloud/cloud_columns.hpp"
 #include "urban_nav_core/io/numbers.hpp"
 #include "urban_nav_core/io/text.hpp"
@@ -135,7 +136,8 @@ std::vector<std::string> uniqueSceneNames(const std::vector<SceneFiles>& scenes)
 }
 
 SceneInput readScene(const SceneFiles& files) {
-  const auto columns = urban_nav_core::readCloudColumns(files.points, {"x", "y", "z", "reflectance"});
+  const auto columns =
+      urban_nav_core::readCloudColumns(files.points, {"x", "y", "z", "reflectance", "laser", "coloured"});
   if (!columns[0] || !columns[1] || !columns[2])
     throw UserError(files.points, "a column x, y or z is missing", "x,y,z[,reflectance][,label]");
   SceneInput input;
@@ -147,12 +149,20 @@ SceneInput readScene(const SceneFiles& files) {
     scene.points.push_back((point - input.offset).cast<float>());
   }
   if (columns[3]) scene.reflectance.assign(columns[3]->begin(), columns[3]->end());
+  if (columns[4] && columns[5])  // a map of urban_nav
+    input.is_of_side_lasers = std::any_of(columns[4]->begin(), columns[4]->end(), [](double sensor) {
+      return sensor < static_cast<double>(laser_mapper::kFirstLidar);
+    });
   if (files.image.empty()) return input;
   scene.view.image = readColourImage(files.image);
   Eigen::Matrix<double, 3, 4> projection = readProjection(files.projection);
   projection.col(3) += projection.leftCols<3>() * input.offset;
   scene_labeler::projectScene(projection, scene);
   return input;
+}
+
+const scene_labeler::LabelModel& chooseModel(const SceneInput& input, const scene_labeler::LabelModel& model) {
+  return input.is_of_side_lasers ? model : scene_labeler::modelFor(model, input.scene.device);
 }
 
 std::vector<std::int64_t> readSceneLabels(const SceneFiles& files, bool has_class_map) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scene_labeler/model/label_model.hpp"
 #include "scene_labeler/scene.hpp"
 
 namespace urban_nav {
@@ -33,7 +34,11 @@ struct SceneInput {
   scene_labeler::Scene scene;
   /// m, whole: a point of the file is `offset` + a point of the scene. 0 along axes whose coordinates are within 1 km.
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  bool is_of_side_lasers = false;  ///< map of urban_nav with points of the robot's side lasers
 };
+
+/// Returns the model for a scene: that of the side lasers for a map of them, otherwise that of its device.
+const scene_labeler::LabelModel& chooseModel(const SceneInput& input, const scene_labeler::LabelModel& model);
 
 /// Reads the returns and the image of a scene; no labels. Throws UserError for a file of another format, DataError for
 /// an image that cannot be decoded.

@@ -57,8 +57,10 @@ int runLabelsTeach(const Arguments& arguments, Console& console) {
   setup.files = findTaughtScene(arguments.get("INPUT"));
   setup.corrections = correctionsPath(arguments, setup.files);
   setup.model_name = arguments.get("model", labeler.model);
-  setup.model = readLabelModel(setup.model_name, arguments.number("precision", labeler.precision, 0.5, 0.999)).model;
   setup.input = readScene(setup.files);
+  setup.model =
+      chooseModel(setup.input,
+                  readLabelModel(setup.model_name, arguments.number("precision", labeler.precision, 0.5, 0.999)).model);
   if (setup.input.scene.points.size() > kMostTaughtPoints)
     throw urban_nav_core::DataError(setup.files.points, std::to_string(setup.input.scene.points.size()) + " points",
                                     "at most " + std::to_string(kMostTaughtPoints) + "; cut a part out of the cloud");

@@ -6,6 +6,7 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <random>
@@ -207,6 +208,20 @@ TEST_F(Labels, RefuseWhatTheyCannotUse) {
   EXPECT_EQ(labels({"apply", path("broken"), path("train"), "-o", path("out")}), 2);
   urban_nav_input::testing::writeFile(path("train/a.png"), "an image without a projection.txt");
   EXPECT_EQ(labels({"apply", path("m"), path("train"), "-o", path("out")}), 2);
+}
+
+TEST_F(Labels, OfTheDefaultModelAreThoseOfItsModelOfCloudsExceptForMapsOfSideLasers) {
+  const auto classesOf = [&](const std::string& name, const std::string& laser) {
+    std::string text = "x,y,z,laser,coloured\n";
+    for (int i = 0; i < 900; ++i)
+      text += std::to_string(0.1 * (i % 30)) + "," + std::to_string(0.1 * (i / 30)) + ",0," + laser + ",0\n";
+    urban_nav_input::testing::writeFile(path(name + "_points.csv"), text);
+    EXPECT_EQ(labels({"apply", "default", path(name + "_points.csv"), "-o", path("out")}), 0);
+    const auto header = urban_nav_core::CsvTable::read(path("out/" + name + "_labels.csv")).header();
+    return std::count(header.begin(), header.end(), "p_wall") == 1 ? "one wall" : "two walls";
+  };
+  EXPECT_STREQ(classesOf("lidar", "32"), "one wall");
+  EXPECT_STREQ(classesOf("side", "0"), "two walls");
 }
 
 TEST_F(Labels, ClassFilesNameEveryLabel) {
