@@ -15,7 +15,7 @@ constexpr std::int8_t kUnknownCell = -1;
 constexpr std::uint8_t kPgmObstacle = 0, kPgmFree = 254;  // OccupancyGrid::image()
 
 /// Returns the image with rows from the south and the values of nav_msgs/OccupancyGrid.
-std::vector<std::int8_t> occupancyOf(const OccupancyGrid& grid, const Raster& cells) {
+std::vector<std::int8_t> toOccupancy(const OccupancyGrid& grid, const Raster& cells) {
   const std::vector<std::uint8_t> image = grid.image();
   std::vector<std::int8_t> occupancy(image.size(), kUnknownCell);
   for (int v = 0; v < cells.height; ++v)
@@ -27,7 +27,7 @@ std::vector<std::int8_t> occupancyOf(const OccupancyGrid& grid, const Raster& ce
   return occupancy;
 }
 
-std::vector<std::int8_t> costOf(const Raster& traversability) {
+std::vector<std::int8_t> toCosts(const Raster& traversability) {
   std::vector<std::int8_t> cost;
   cost.reserve(traversability.values.size());
   for (const float value : traversability.values)
@@ -51,8 +51,8 @@ LiveLayers makeLiveLayers(const ForEachPart& parts, const std::vector<urban_nav_
   LiveLayers layers;
   layers.elevation = heights.elevation();
   layers.terrain = terrainLayers(layers.elevation, {});
-  layers.occupancy = occupancyOf(grid, layers.elevation);
-  layers.traverse_cost = costOf(layers.terrain.traversability);
+  layers.occupancy = toOccupancy(grid, layers.elevation);
+  layers.traverse_cost = toCosts(layers.terrain.traversability);
   return layers;
 }
 

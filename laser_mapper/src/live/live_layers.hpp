@@ -17,8 +17,8 @@ namespace laser_mapper {
 /// Layers of the map for planners, on the same cells, whose rows begin in the south.
 struct LiveLayers {
   Raster elevation;                        ///< m
-  TerrainLayers terrain;                   ///< of the elevation
-  std::vector<std::int8_t> occupancy;      ///< of nav_msgs/OccupancyGrid: 0 free, 100 obstacle, -1 unknown
+  TerrainLayers terrain;                   ///< derived from the elevation
+  std::vector<std::int8_t> occupancy;      ///< as in nav_msgs/OccupancyGrid: 0 free, 100 obstacle, -1 unknown
   std::vector<std::int8_t> traverse_cost;  ///< 0 flat and smooth ... 100 not traversable, -1 unknown
 };
 

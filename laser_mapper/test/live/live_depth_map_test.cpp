@@ -18,15 +18,15 @@ using urban_nav_core::Pose;
 
 const char* const kDepthFrame = "camera_depth_optical_frame";
 
-/// Map of the room by a camera that looks ahead.
+/// Map of the room by a camera that faces ahead.
 class LiveDepthMap : public ::testing::Test {
  protected:
-  /// `look`: adds what the camera measures at a pose.
-  template <typename Look>
-  void driveAndLook(const Look& look) {
+  /// `measure`: adds what the camera measures at a pose.
+  template <typename Measure>
+  void drive(const Measure& measure) {
     for (std::size_t i = 0; i < trajectory_.size(); ++i) {
       map_.addOdometry(trajectory_[i]);
-      look(i);
+      measure(i);
     }
   }
   void addImage(std::size_t i) {
@@ -85,7 +85,7 @@ class LiveDepthMap : public ::testing::Test {
 
 TEST_F(LiveDepthMap, ADepthCameraAloneMakesAMap) {
   map_.sensors().placeDepthCamera(kDepthFrame, camera_, testing_room::roomCamera());
-  driveAndLook([this](std::size_t i) { addImage(i); });
+  drive([this](std::size_t i) { addImage(i); });
   const std::size_t stored = map_.counts().sensors.depth_images;
   EXPECT_GE(stored, 8U);
   EXPECT_LE(stored, 20U) << "3 m: an image about every 0.25 m or 6 deg";
@@ -95,7 +95,7 @@ TEST_F(LiveDepthMap, ADepthCameraAloneMakesAMap) {
 
 TEST_F(LiveDepthMap, ImagesThatDoNotFitTheCalibrationAreCounted) {
   map_.sensors().placeDepthCamera(kDepthFrame, camera_, testing_room::roomCamera());
-  driveAndLook([this](std::size_t i) {
+  drive([this](std::size_t i) {
     map_.addDepth(kDepthFrame, trajectory_[i].stamp, [i] { return i % 2 == 0 ? cv::Mat() : cv::Mat(8, 6, CV_32FC1); });
   });
   EXPECT_EQ(map_.counts().sensors.depth_images, 0U);
@@ -104,13 +104,13 @@ TEST_F(LiveDepthMap, ImagesThatDoNotFitTheCalibrationAreCounted) {
 }
 
 TEST_F(LiveDepthMap, ImagesWithoutAMountingAreCounted) {
-  driveAndLook([this](std::size_t i) { addImage(i); });
+  drive([this](std::size_t i) { addImage(i); });
   EXPECT_EQ(map_.counts().sensors.unplaced, trajectory_.size());
   EXPECT_EQ(decoded_, 0);
 }
 
 TEST_F(LiveDepthMap, DenseStereoAloneMakesAMap) {
-  driveAndLook([this](std::size_t i) { addView(i); });
+  drive([this](std::size_t i) { addView(i); });
   EXPECT_GE(map_.counts().sensors.stereo_views, 8U);
   expectRoom(kStereoSensor, 0.02);
   map_.clear();
@@ -120,12 +120,12 @@ TEST_F(LiveDepthMap, DenseStereoAloneMakesAMap) {
 TEST_F(LiveDepthMap, DenseStereoIsNotUsedWithALaserThatMeasuresSurfaces) {
   map_.sensors().placeLaser("laser_left", Pose());
   EXPECT_FALSE(map_.sensors().hasTiltedLaser()) << "horizontal: one height alone";
-  driveAndLook([this](std::size_t i) { addView(i); });
+  drive([this](std::size_t i) { addView(i); });
   EXPECT_GT(map_.counts().sensors.stereo_views, 0U);
   map_.clear();
   map_.sensors().placeLaser("laser_right", testing_room::roomLaser());
   EXPECT_TRUE(map_.sensors().hasTiltedLaser());
-  driveAndLook([this](std::size_t i) { addView(i); });
+  drive([this](std::size_t i) { addView(i); });
   EXPECT_EQ(map_.counts().sensors.stereo_views, 0U);
 }
 

@@ -118,7 +118,7 @@ class Ground {
 
  private:
   Draws& draws_;
-  std::array<SceneClass, 3> kinds_{};  // of grass, paving and dirt of the simulator
+  std::array<SceneClass, 3> kinds_{};  // classes of grass, paving and dirt of the simulator
   float grass_ = 0.0F, gravel_ = 0.0F;
 };
 

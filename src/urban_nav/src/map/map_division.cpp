@@ -99,7 +99,7 @@ void divideGroups(const std::vector<std::size_t>& groups, const std::vector<Metr
       context.between_groups.push_back(rejected(closure, reasons[closurePoses(closure)]));
   }
   context.groups = groups;
-  context.learnt.reset();  // what other groups showed is not known in these
+  context.learnt.reset();  // these groups do not know the others
 }
 
 }  // namespace urban_nav

@@ -103,7 +103,7 @@ class GroupRecognition {
   const LoadedPlaceModel& model_;
   const MapContext& context_;
   const std::vector<urban_nav_store::SessionId> ids_;
-  const std::vector<std::size_t> order_;  // of sessions, as they are recognised
+  const std::vector<std::size_t> order_;  // indices of sessions, as they are recognised
   FabMap map_;                            // with descriptors from the store
   const std::vector<urban_nav_store::PlaceLink> learnt_;
   std::map<urban_nav_store::SessionId, TravelledDistance> travelled_;  // of recognised sessions
