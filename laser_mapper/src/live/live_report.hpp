@@ -19,7 +19,7 @@ enum class MapFault {
 };
 const char* toString(MapFault fault);
 
-/// What hinders a live map; empty sentences: nothing.
+/// Faults of a live map; empty: none.
 struct MapFaults {
   std::string store, odometry, clouds, depth, places, lasers;
   bool is_paused = false;
