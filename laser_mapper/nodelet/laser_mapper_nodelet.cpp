@@ -39,7 +39,7 @@ using urban_nav_ros::InfoInput;
 
 namespace {
 
-constexpr std::uint32_t kViewQueue = 5;
+constexpr int kViewQueue = 5;
 constexpr double kPointBytes = 50.0, kTileBytes = 100'000.0;  // per point; least amount per round
 constexpr int kRestPerWork = 3;                               // pause after a cloud, in units of its computing time
 constexpr double kConstraintPeriods = 5.0;                    // between two searches for constraints, at least
@@ -68,6 +68,7 @@ class LaserMapperStage {
  private:
   using Clock = std::chrono::steady_clock;
   void addScan(const sensor_msgs::LaserScan& message);
+  void placeLaser(const std::string& frame, const urban_nav_core::Pose& T_base_laser);
   void addSweep(const std::string& frame, const urban_nav_core::Sweep& sweep);
   void addDepth(const urban_nav_ros::DepthInputs::Image& image);
   void addView(const urban_nav_msgs::DepthView& message);
@@ -91,7 +92,6 @@ class LaserMapperStage {
   std::unique_ptr<LiveMap> map_;
   urban_nav_ros::StaticTransforms transforms_;
   ros::Publisher cloud_, tiles_, quality_, constraints_, grid_, traversability_, terrain_;
-  ros::Subscriber views_;  // depths of dense stereo
   std::uint32_t tile_subscribers_ = 0;
   std::set<std::string> unplaced_;  ///< frames of sensors with unknown mounting
   std::string store_fault_;
@@ -124,11 +124,13 @@ LaserMapperStage::LaserMapperStage(Node& node) : node_(node) {
       "clear", [this](const auto&, auto& response) { response.message = node_.ask([this] { return reset(); }); });
   subscribeRobot(node, nodelet_.queue_size, false, false, true);
   urban_nav_ros::subscribeDepth(node, static_cast<std::size_t>(nodelet_.depth_cameras), nodelet_.compressed_depth);
-  if (parameters_.stereo)
-    views_ = node.nh().subscribe<urban_nav_msgs::DepthView>(
-        urban_nav_ros::topics::kDepthView, kViewQueue,
-        boost::function<void(const urban_nav_msgs::DepthViewConstPtr&)>(
-            [this](const urban_nav_msgs::DepthViewConstPtr& view) { node_.push(Input(view)); }));
+  if (parameters_.stereo) {
+    urban_nav_ros::TopicOptions of_views;
+    of_views.is_monitored = false;
+    of_views.queue = kViewQueue;
+    node.subscribeInput<urban_nav_msgs::DepthView>(urban_nav_ros::topics::kDepthView, of_views,
+                                                   [](const auto& message) { return Input(message); });
+  }
   urban_nav_ros::TopicOptions options;
   options.is_monitored = options.is_paused = false;
   options.queue = nodelet_.queue_size;
@@ -165,9 +167,14 @@ void LaserMapperStage::addScan(const sensor_msgs::LaserScan& message) {
   beams_.add(*planar);
   const std::string& frame = message.header.frame_id;
   if (!map_->sensors().isPlaced(frame))
-    if (const auto T_base_laser = findPlace(frame)) map_->sensors().placeLaser(frame, *T_base_laser);
-  if (map_->sensors().hasTiltedLaser()) views_.shutdown();  // dense stereo need not be computed for the map
+    if (const auto T_base_laser = findPlace(frame)) placeLaser(frame, *T_base_laser);
   map_->addScan(frame, urban_nav_core::toScan(*planar));
+}
+
+void LaserMapperStage::placeLaser(const std::string& frame, const urban_nav_core::Pose& T_base_laser) {
+  map_->sensors().placeLaser(frame, T_base_laser);
+  // Dense stereo need not be computed for the map.
+  if (map_->sensors().hasTiltedLaser()) node_.unsubscribe(urban_nav_ros::topics::kDepthView);
 }
 
 void LaserMapperStage::addSweep(const std::string& frame, const urban_nav_core::Sweep& sweep) {
@@ -179,8 +186,8 @@ void LaserMapperStage::addSweep(const std::string& frame, const urban_nav_core::
 void LaserMapperStage::addDepth(const urban_nav_ros::DepthInputs::Image& image) {
   if (!map_->sensors().isPlaced(image.frame))
     if (const auto T_base_camera = findPlace(image.frame))
-      map_->sensors().placeDepthCamera(image.frame, image.pinhole, *T_base_camera);
-  map_->addDepth(image.frame, image.stamp, image.decode);
+      map_->sensors().placeDepthCamera(image.frame, *T_base_camera);
+  map_->addDepth(image.frame, image.stamp, image.pinhole, image.decode);
 }
 
 void LaserMapperStage::addView(const urban_nav_msgs::DepthView& message) {
@@ -333,6 +340,7 @@ urban_nav_live::StageReport LaserMapperStage::report() const {
   const LiveMap::Counts counts = map_->counts();
   urban_nav_live::StageReport report = reportOnMap(counts, faults);
   beams_.addTo(report);
+  depth_.addTo(report);
   report.add("time of the last cloud (s)", seconds_);
   if (nodelet_.live_constraints) {
     report.add("constraints from planes", counts.constraints);

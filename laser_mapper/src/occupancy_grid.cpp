@@ -48,15 +48,20 @@ void OccupancyGrid::addBeams(const std::vector<MapPoint>& points, const BeamOrig
   }
 }
 
+OccupancyGrid::State OccupancyGrid::state(std::size_t cell) const {
+  if (ground_.isDriven(cell)) return State::Free;
+  if (cells_[cell].obstacles >= kFewestPoints) return State::Obstacle;
+  return cells_[cell].passed ? State::Free : State::Unknown;
+}
+
 std::vector<std::uint8_t> OccupancyGrid::image() const {
   std::vector<std::uint8_t> image;
   image.reserve(cells_.size());
   for (int v = ground_.height() - 1; v >= 0; --v)
     for (int u = 0; u < ground_.width(); ++u) {
-      const std::size_t i =
-          static_cast<std::size_t>(v) * static_cast<std::size_t>(ground_.width()) + static_cast<std::size_t>(u);
-      if (cells_[i].obstacles >= kFewestPoints && !ground_.isDriven(i)) image.push_back(kObstacle);
-      else image.push_back(cells_[i].passed || ground_.isDriven(i) ? kFree : kUnknown);
+      const State cell =
+          state(static_cast<std::size_t>(v) * static_cast<std::size_t>(ground_.width()) + static_cast<std::size_t>(u));
+      image.push_back(cell == State::Obstacle ? kObstacle : cell == State::Free ? kFree : kUnknown);
     }
   return image;
 }

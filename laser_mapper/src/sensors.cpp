@@ -25,6 +25,7 @@ namespace frames = urban_nav_core::frames;
 namespace {
 
 constexpr std::uint8_t kFirstOtherLaser = 2;
+constexpr urban_nav_core::StampNs kLongestBeamGap = 500'000'000;  // between the poses around a beam
 constexpr const char* kLidarRole = "points";
 const std::string kLaserRole = "laser";
 constexpr const char* kDepthRole = "depth";
@@ -124,6 +125,14 @@ std::map<std::uint8_t, urban_nav_core::Pose> sensorPlaces(Store& store, const Se
   key.session = session;
   if (const auto view = findFirst(store, key)) places[kStereoSensor] = view->T_base_camera;
   return places;
+}
+
+std::optional<urban_nav_core::Vector3d> beamOrigin(const MapPoint& point, const urban_nav_core::Trajectory& T_map_base,
+                                                   const std::map<std::uint8_t, urban_nav_core::Pose>& places) {
+  const auto place = places.find(point.laser);
+  if (place == places.end()) return std::nullopt;
+  const std::optional<urban_nav_core::Pose> pose = T_map_base.at(point.stamp, kLongestBeamGap);
+  return pose ? std::optional(*pose * place->second.t()) : std::nullopt;
 }
 
 std::string missingMeasurements(Store& store, const SessionId& session) {

@@ -66,6 +66,14 @@ TEST_F(OccupancyGridTest, ObstaclesAreMeasuredFromTheGroundAroundThem) {
   for (double y = -1.5; y < 5.0; y += 0.1) EXPECT_EQ(at(grid, 8.0, y), 254) << "slope at " << y;
 }
 
+TEST_F(OccupancyGridTest, ErroneousPointsBelowTheGroundMakeNoObstacles) {
+  add(8.02, 2.02, groundAt(2.02) - 0.2);
+  add(8.12, 2.02, groundAt(2.02) - 0.2);
+  const GridImage grid = build();
+  for (double x = 7.75; x < 8.4; x += 0.1)
+    for (double y = 1.75; y < 2.4; y += 0.1) EXPECT_EQ(at(grid, x, y), 254) << x << ", " << y;
+}
+
 TEST_F(OccupancyGridTest, CellsThatNoBeamReachedAreUnknown) {
   const GridImage grid = build();
   EXPECT_EQ(at(grid, 8.0, 6.0), 254) << "passed";

@@ -27,6 +27,9 @@ class OccupancyGrid {
 
   void addBeams(const std::vector<MapPoint>& points, const BeamOrigin& origin);
 
+  enum class State { Unknown, Free, Obstacle };
+  /// Returns the state of a cell by its number in the GroundGrid.
+  State state(std::size_t cell) const;
   /// Returns the cells of the image in the encoding of map_server: 0 obstacle, 254 free, 205 unknown; rows from the
   /// north.
   std::vector<std::uint8_t> image() const;

@@ -4,10 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "laser_mapper/map_point.hpp"
 #include "laser_mapper/parameters.hpp"
+#include "urban_nav_core/trajectory/trajectory.hpp"
 #include "urban_nav_store/store.hpp"
 
 namespace laser_mapper {
@@ -44,6 +47,11 @@ std::vector<SensorName> storedSensors(urban_nav_store::Store& store,
 /// Returns the poses of a session's sensors on the robot by id, those of planar lasers with the adopted calibration.
 std::map<std::uint8_t, urban_nav_core::Pose> sensorPlaces(urban_nav_store::Store& store,
                                                           const urban_nav_store::SessionId& session);
+
+/// Returns the origin of the beams of a point, m in the map; nullopt if its sensor has no place, or there are no poses
+/// around its stamp.
+std::optional<urban_nav_core::Vector3d> beamOrigin(const MapPoint& point, const urban_nav_core::Trajectory& T_map_base,
+                                                   const std::map<std::uint8_t, urban_nav_core::Pose>& places);
 
 /// Returns the measurements that a map of a session lacks: "no laser scans, sweeps of a 3D LiDAR or depth images of
 /// dense stereo"; empty if it can be made.

@@ -2,7 +2,9 @@
 #include "laser_mapper/layers/ground_grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace laser_mapper {
 
@@ -13,6 +15,7 @@ namespace {
 constexpr float kUnreached = 1e9F;
 constexpr float kLargestStep = 0.25F;    // m of ground height between adjacent cells
 constexpr int kAround = 2;               // cells whose lowest ground is the base of an obstacle
+constexpr std::size_t kErroneous = 2;    // cells around a cell whose lowest point may be below the ground by an error
 constexpr float kSteepestGround = 0.7F;  // z of a unit normal: 45 deg
 
 }  // namespace
@@ -98,13 +101,16 @@ void GroundGrid::find() {
 float GroundGrid::groundAround(std::size_t cell) const {
   const auto u = static_cast<int>(cell % static_cast<std::size_t>(width_));
   const auto v = static_cast<int>(cell / static_cast<std::size_t>(width_));
-  float lowest = kUnreached;
+  std::array<float, kErroneous + 1> lowest;  // ascending
+  lowest.fill(kUnreached);
   for (int y = std::max(0, v - kAround); y <= std::min(height_ - 1, v + kAround); ++y)
-    for (int x = std::max(0, u - kAround); x <= std::min(width_ - 1, u + kAround); ++x)
-      lowest = std::min(
-          lowest,
-          cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)].ground);
-  return lowest;
+    for (int x = std::max(0, u - kAround); x <= std::min(width_ - 1, u + kAround); ++x) {
+      float ground =
+          cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)].ground;
+      for (float& each : lowest)
+        if (ground < each) std::swap(ground, each);
+    }
+  return lowest.back();
 }
 
 std::optional<float> GroundGrid::lowest(std::size_t cell) const {

@@ -12,18 +12,13 @@ namespace laser_mapper {
 namespace {
 
 constexpr std::int8_t kUnknownCell = -1;
-constexpr std::uint8_t kPgmObstacle = 0, kPgmFree = 254;  // OccupancyGrid::image()
 
-/// Returns the image with rows from the south and the values of nav_msgs/OccupancyGrid.
-std::vector<std::int8_t> toOccupancy(const OccupancyGrid& grid, const Raster& cells) {
-  const std::vector<std::uint8_t> image = grid.image();
-  std::vector<std::int8_t> occupancy(image.size(), kUnknownCell);
-  for (int v = 0; v < cells.height; ++v)
-    for (int u = 0; u < cells.width; ++u) {
-      const std::uint8_t pixel = image[cells.at(u, cells.height - 1 - v)];
-      if (pixel == kPgmObstacle) occupancy[cells.at(u, v)] = 100;
-      if (pixel == kPgmFree) occupancy[cells.at(u, v)] = 0;
-    }
+std::vector<std::int8_t> toOccupancy(const OccupancyGrid& grid, std::size_t cells) {
+  std::vector<std::int8_t> occupancy(cells, kUnknownCell);
+  for (std::size_t i = 0; i < cells; ++i) {
+    if (grid.state(i) == OccupancyGrid::State::Obstacle) occupancy[i] = 100;
+    if (grid.state(i) == OccupancyGrid::State::Free) occupancy[i] = 0;
+  }
   return occupancy;
 }
 
@@ -51,7 +46,7 @@ LiveLayers makeLiveLayers(const ForEachPart& parts, const std::vector<urban_nav_
   LiveLayers layers;
   layers.elevation = heights.elevation();
   layers.terrain = terrainLayers(layers.elevation, {});
-  layers.occupancy = toOccupancy(grid, layers.elevation);
+  layers.occupancy = toOccupancy(grid, ground.size());
   layers.traverse_cost = toCosts(layers.terrain.traversability);
   return layers;
 }

@@ -22,7 +22,6 @@ constexpr const char* kLiveSession = "00000000000000000000";
 constexpr const char* kStereoViews = "";  // name of the stream of dense stereo; those of sensors are frames
 constexpr int kOdometryStream = 0, kStepStream = 1, kFirstSensorStream = 2;
 constexpr StampNs kOdometryPatience = 60'000'000'000;  // ns of scans of a new session that wait for its odometry
-constexpr StampNs kLongestGapOfBeams = 500'000'000;    // between poses from which the origin of a beam is interpolated
 constexpr StampNs kFewSeconds = 5'000'000'000;         // from a pose of odometry until closures near it are measured
 
 /// Returns the poses of a trajectory at the given stamps.
@@ -122,9 +121,11 @@ void LiveMap::addSweep(const std::string& frame, const urban_nav_core::Sweep& sw
   addWhenPlaced(frame, sweep.reference, [this, frame, sweep] { sensors_.put(frame, sweep, newestPose()); });
 }
 
-void LiveMap::addDepth(const std::string& frame, StampNs stamp, LiveSensors::DecodeDepth decode) {
-  addWhenPlaced(frame, stamp,
-                [this, frame, stamp, decode = std::move(decode)] { sensors_.put(frame, stamp, decode, newestPose()); });
+void LiveMap::addDepth(const std::string& frame, StampNs stamp, const urban_nav_core::Pinhole& pinhole,
+                       LiveSensors::DecodeDepth decode) {
+  addWhenPlaced(frame, stamp, [this, frame, stamp, pinhole, decode = std::move(decode)] {
+    sensors_.put(frame, stamp, pinhole, decode, newestPose());
+  });
 }
 
 void LiveMap::addView(StampNs stamp, const urban_nav_core::DepthSamples& view, const Pose& T_base_camera) {
@@ -245,12 +246,7 @@ std::optional<LiveLayers> LiveMap::makeLayers(double radius) {
   for (const urban_nav_core::StampedPose& pose : T_map_base)
     if (distanceBetween(pose.pose, T_map_base.back().pose) <= radius) path.push_back(pose.pose.t());
   const std::map<std::uint8_t, Pose> places = sensorPlaces(*store_, kLiveSession);
-  const auto origin = [&](const MapPoint& point) -> std::optional<urban_nav_core::Vector3d> {
-    const auto place = places.find(point.laser);
-    if (place == places.end()) return std::nullopt;
-    const std::optional<Pose> pose = T_map_base.at(point.stamp, kLongestGapOfBeams);
-    return pose ? std::optional(*pose * place->second.t()) : std::nullopt;
-  };
+  const auto origin = [&](const MapPoint& point) { return beamOrigin(point, T_map_base, places); };
   return makeLiveLayers(
       [this](const std::function<void(const std::vector<MapPoint>&)>& take) {
         for (const auto& [tile, state] : tiles_) take(state.points);

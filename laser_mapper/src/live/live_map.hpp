@@ -59,7 +59,8 @@ class LiveMap {
   const LiveSensors& sensors() const { return sensors_; }
   void addScan(const std::string& frame, const urban_nav_core::Scan& scan);
   void addSweep(const std::string& frame, const urban_nav_core::Sweep& sweep);
-  void addDepth(const std::string& frame, urban_nav_core::StampNs stamp, LiveSensors::DecodeDepth decode);
+  void addDepth(const std::string& frame, urban_nav_core::StampNs stamp, const urban_nav_core::Pinhole& pinhole,
+                LiveSensors::DecodeDepth decode);
   /// Adds depths of dense stereo, which are used if no planar laser measures surfaces around the robot.
   void addView(urban_nav_core::StampNs stamp, const urban_nav_core::DepthSamples& view,
                const urban_nav_core::Pose& T_base_camera);

@@ -40,13 +40,11 @@ void LiveSensors::placeLidar(const std::string& frame, const Pose& T_base_lidar)
   if (lidars_.emplace(frame, lidar).second) storePlaces();
 }
 
-void LiveSensors::placeDepthCamera(const std::string& frame, const urban_nav_core::Pinhole& pinhole,
-                                   const Pose& T_base_camera) {
+void LiveSensors::placeDepthCamera(const std::string& frame, const Pose& T_base_camera) {
   if (depth_cameras_.size() == kMostDepthCameras) return;
-  DepthCamera camera;
+  Spaced camera;
   camera.role = depthRole(depth_cameras_.size());
   camera.T_base_sensor = T_base_camera;
-  camera.pinhole = pinhole;
   depth_cameras_.emplace(frame, camera);
 }
 
@@ -78,15 +76,16 @@ void LiveSensors::put(const std::string& frame, const urban_nav_core::Sweep& swe
   ++counts_.sweeps;
 }
 
-void LiveSensors::put(const std::string& frame, StampNs stamp, const DecodeDepth& decode, const MaybePose& newest) {
-  DepthCamera& camera = depth_cameras_.at(frame);
+void LiveSensors::put(const std::string& frame, StampNs stamp, const urban_nav_core::Pinhole& pinhole,
+                      const DecodeDepth& decode, const MaybePose& newest) {
+  Spaced& camera = depth_cameras_.at(frame);
   if (!camera.spacing.takes(stamp, newest)) return;
   const cv::Mat depth = decode();
-  if (depth.empty() || depth.cols != camera.pinhole.width || depth.rows != camera.pinhole.height) {
+  if (depth.empty()) {
     ++counts_.invalid_depth;
     return;
   }
-  DepthImage row = depthImageRow(depth, camera.pinhole);
+  DepthImage row = depthImageRow(depth, pinhole);
   row.session = session_;
   row.role = camera.role;
   row.stamp = stamp;

@@ -28,10 +28,11 @@ class LiveSensors {
     std::size_t sweeps = 0;         ///< stored
     std::size_t depth_images = 0;   ///< stored
     std::size_t stereo_views = 0;   ///< depths of dense stereo, stored
-    std::size_t invalid_depth = 0;  ///< images that cannot be decoded, or not of the size of the calibration
+    std::size_t invalid_depth = 0;  ///< images that cannot be decoded
     std::size_t unplaced = 0;       ///< measurements of sensors with unknown mounting
   };
-  /// Returns depths (CV_32FC1, m along the optical axis; 0: none); empty: the image cannot be decoded.
+  /// Returns depths of the size of the pinhole (CV_32FC1, m along the optical axis; 0: none); empty: the image cannot
+  /// be used.
   using DecodeDepth = std::function<cv::Mat()>;
   using MaybePose = std::optional<urban_nav_core::Pose>;
 
@@ -46,8 +47,7 @@ class LiveSensors {
   void placeLaser(const std::string& frame, const urban_nav_core::Pose& T_base_laser);
   void placeLidar(const std::string& frame, const urban_nav_core::Pose& T_base_lidar);
   /// Cameras beyond kMostDepthCameras are ignored.
-  void placeDepthCamera(const std::string& frame, const urban_nav_core::Pinhole& pinhole,
-                        const urban_nav_core::Pose& T_base_camera);
+  void placeDepthCamera(const std::string& frame, const urban_nav_core::Pose& T_base_camera);
 
   /// Continues in an empty store, which must outlive this object or the next call.
   void begin(urban_nav_store::Store& store);
@@ -55,7 +55,8 @@ class LiveSensors {
   void put(const std::string& frame, const urban_nav_core::Scan& scan);
   /// `newest`: newest pose of the robot; nullopt: none yet.
   void put(const std::string& frame, const urban_nav_core::Sweep& sweep, const MaybePose& newest);
-  void put(const std::string& frame, urban_nav_core::StampNs stamp, const DecodeDepth& decode, const MaybePose& newest);
+  void put(const std::string& frame, urban_nav_core::StampNs stamp, const urban_nav_core::Pinhole& pinhole,
+           const DecodeDepth& decode, const MaybePose& newest);
   /// Adds depths of dense stereo, which are used if no planar laser measures surfaces around the robot.
   void put(urban_nav_core::StampNs stamp, const urban_nav_core::DepthSamples& view,
            const urban_nav_core::Pose& T_base_camera, const MaybePose& newest);
@@ -68,9 +69,6 @@ class LiveSensors {
     urban_nav_core::Pose T_base_sensor;
     urban_nav_core::TravelSpacing spacing{urban_nav_core::kSweepSpacing};
   };
-  struct DepthCamera : Spaced {
-    urban_nav_core::Pinhole pinhole;
-  };
 
   void storePlaces();
 
@@ -78,7 +76,7 @@ class LiveSensors {
   urban_nav_store::Store* store_ = nullptr;
   std::map<std::string, urban_nav_core::Pose> lasers_;
   std::map<std::string, Spaced> lidars_;
-  std::map<std::string, DepthCamera> depth_cameras_;
+  std::map<std::string, Spaced> depth_cameras_;
   urban_nav_core::TravelSpacing views_{urban_nav_core::kSweepSpacing};
   Counts counts_;
 };

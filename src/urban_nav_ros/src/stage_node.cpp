@@ -126,8 +126,20 @@ void StageNode::awaitInputs(std::chrono::steady_clock::time_point end) const {
   }
 }
 
+void StageNode::unsubscribe(const std::string& topic) {
+  const std::string name = handles_.nh.resolveName(topic);
+  const std::lock_guard<std::mutex> lock(subscribers_mutex_);
+  for (ros::Subscriber& each : subscribers_)
+    if (each && each.getTopic() == name) each.shutdown();
+}
+
 void StageNode::shutDown() {
-  subscribers_.clear();
+  std::vector<ros::Subscriber> ended;  // whose callbacks may run until it is destroyed
+  {
+    const std::lock_guard<std::mutex> lock(subscribers_mutex_);
+    ended.swap(subscribers_);
+  }
+  ended.clear();
   awaited_.clear();
   services_.clear();
 }

@@ -79,5 +79,27 @@ TEST_F(DepthInputsTest, AnImageThatCannotBeUsedIsNamed) {
   EXPECT_EQ(inputs_.fault(), "");
 }
 
+TEST_F(DepthInputsTest, DistortionThatIsNotCorrectedIsAWarning) {
+  const auto distorted = boost::make_shared<sensor_msgs::CameraInfo>(*depthInputInfo());
+  distorted->distortion_model = "plumb_bob";
+  distorted->D = {0.1, 0.0, 0.0, 0.0, 0.0};
+  inputs_.handle({0, sensor_msgs::CameraInfoConstPtr(distorted)});
+  urban_nav_live::StageReport report;
+  inputs_.addTo(report);
+  ASSERT_EQ(report.warnings.size(), 1U);
+  EXPECT_NE(report.warnings.front().find("distortion in depth0/camera_info"), std::string::npos);
+}
+
+TEST_F(DepthInputsTest, ADriverWithAnotherCalibrationIsFollowed) {
+  inputs_.handle({0, depthInputInfo(10.0)});
+  inputs_.handle({0, depthInputImage()});
+  inputs_.handle({0, depthInputInfo(20.0)});
+  inputs_.handle({0, depthInputImage()});
+  ASSERT_EQ(images_.size(), 2U);
+  EXPECT_EQ(images_.front().pinhole.fx, 10.0);
+  EXPECT_EQ(images_.back().pinhole.fx, 20.0);
+  EXPECT_FALSE(images_.back().decode().empty());
+}
+
 }  // namespace
 }  // namespace urban_nav_ros

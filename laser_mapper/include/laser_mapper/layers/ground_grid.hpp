@@ -45,7 +45,8 @@ class GroundGrid {
   /// Returns the height of the ground of a cell, m; below walls, overhangs and where nothing was measured that of the
   /// nearest ground towards the path.
   float ground(std::size_t cell) const { return cells_[cell].ground; }
-  /// Returns the lowest ground within two cells, m: the base of obstacles.
+  /// Returns the third lowest ground within two cells, m: the base of obstacles, which erroneous points below the
+  /// ground do not lower.
   float groundAround(std::size_t cell) const;
   /// Returns the height of the lowest point of a cell, m; nullopt without points.
   std::optional<float> lowest(std::size_t cell) const;

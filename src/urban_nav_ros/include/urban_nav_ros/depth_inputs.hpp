@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "urban_nav_core/camera/pinhole.hpp"
+#include "urban_nav_live/stage_report.hpp"
 #include "urban_nav_ros/stage_node.hpp"
 #include "urban_nav_ros/stamp.hpp"
 #include "urban_nav_ros/topics.hpp"
@@ -57,22 +58,23 @@ class DepthInputs {
   void handle(const DepthMessage& message);
   /// Returns why images of a camera are not used; empty: all are used.
   std::string fault() const;
-  std::int64_t images() const { return images_; }
+  /// Adds warnings on cameras that are used.
+  void addTo(urban_nav_live::StageReport& report) const;
 
  private:
   struct Camera {
-    std::optional<urban_nav_core::Pinhole> pinhole;
+    sensor_msgs::CameraInfoConstPtr info;  ///< source of the calibration; null before the first one
+    std::optional<DepthCalibration> calibration;
     std::string calibration_fault, image_fault;
     std::int64_t uncalibrated = 0;  ///< images before the first camera_info
   };
 
-  void addInfo(std::size_t camera, const sensor_msgs::CameraInfo& info);
+  void addInfo(std::size_t camera, const sensor_msgs::CameraInfoConstPtr& info);
   template <typename Message>
   void addImage(std::size_t camera, const boost::shared_ptr<const Message>& message);
 
   const Listener listener_;
   std::vector<Camera> cameras_;
-  std::int64_t images_ = 0;
 };
 
 /// Subscribes to `cameras` depth cameras as inputs of a stage, none of which is required. Images are thinned to ten a

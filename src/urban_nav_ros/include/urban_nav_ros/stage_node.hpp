@@ -110,6 +110,8 @@ class StageNode {
   /// until `end`.
   void awaitInputs(std::chrono::steady_clock::time_point end) const;
 
+  /// Ends a subscription. Called by the stage.
+  void unsubscribe(const std::string& topic);
   /// Ends subscriptions and services: no callback runs afterwards.
   void shutDown();
 
@@ -122,6 +124,7 @@ class StageNode {
   const SensorInputs sensors_;
   urban_nav_live::TopicMonitor monitor_;
   urban_nav_live::InputGate gate_;
+  std::mutex subscribers_mutex_;  // guards subscribers_
   std::vector<ros::Subscriber> subscribers_, awaited_;
   std::chrono::milliseconds drain_{5000};
   std::vector<ros::ServiceServer> services_;
@@ -194,6 +197,7 @@ void StageNode::subscribe(const std::string& topic, const TopicOptions& options,
         if (!is_paused) gate_.countReceived();
         if (!is_paused || gate_.pass()) callback(message);
       };
+  const std::lock_guard<std::mutex> lock(subscribers_mutex_);
   subscribers_.push_back(handles_.nh.subscribe<Message>(topic, static_cast<std::uint32_t>(options.queue), received));
   if (options.is_awaited) awaited_.push_back(subscribers_.back());
 }

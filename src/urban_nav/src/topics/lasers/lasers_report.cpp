@@ -150,7 +150,9 @@ Json toJson(const LasersRun& run) {
   json["movers_removed"] = run.ghostBeams();
   json["beams_without_pose"] = beams.without_pose;
   json["beams_out_of_range"] = beams.out_of_range;
-  json["points_stereo"] = run.stereo();
+  const std::map<std::string, std::size_t> points = run.pointsBySensor();
+  const auto stereo = points.find("stereo");
+  json["points_stereo"] = stereo == points.end() ? std::size_t(0) : stereo->second;
   json["coloured_share"] = beamShare(run.coloured(), run.points());
   json["sigma_m_median"] = run.maps.empty() ? Json() : Json(run.maps.front().sigma_median);
   json["seconds"] = run.seconds;

@@ -75,18 +75,16 @@ std::string whyEmpty(const LaserMapRun& run) {
   const laser_mapper::BeamCounts& beams = run.rendered.beams;
   return run.file + " cannot be made: no point is left of " + std::to_string(beams.all) + " beams (" +
          std::to_string(beams.without_pose) + " without a pose, " + std::to_string(beams.out_of_range) +
-         " out of range), and no surface is seen by three keyframes of dense stereo";
+         " out of range), and no surface is seen by three images of dense stereo or of a depth camera";
 }
 
 /// Returns points as records of the map's file, and counts them.
-std::string printPoints(const std::vector<MapPoint>& points, LaserMapRun& run, SensorCounts& counts,
-                        SigmaHistogram& sigmas) {
+std::string printPoints(const std::vector<MapPoint>& points, SensorCounts& counts, SigmaHistogram& sigmas) {
   std::string bytes;
   for (const MapPoint& point : points) {
     appendVertex(bytes, point);
     counts.add(point.laser);
-    if (laser_mapper::isOfImages(point.laser)) ++run.stereo;
-    else sigmas.add(point.sigma);
+    if (!laser_mapper::isOfImages(point.laser)) sigmas.add(point.sigma);
   }
   return bytes;
 }
@@ -136,7 +134,7 @@ LaserMapRun renderMap(LaserMap& map, const std::function<std::unique_ptr<MapColo
   run.ghost_beams = map.forEachTile([&](const laser_mapper::Tile& tile, std::vector<MapPoint> points) {
     run.coloured += colours->colour(tile, points);
     tiles.add(tile, points);
-    file.append(printPoints(points, run, counts, sigmas));
+    file.append(printPoints(points, counts, sigmas));
     above.draw(points);
     perspective.draw(points);
     for (MapPoint& point : points) point.displacement = quality.displacementAt(point.p).value_or(-1.0F);
@@ -205,12 +203,6 @@ std::map<std::string, std::size_t> LasersRun::pointsBySensor() const {
 std::size_t LasersRun::coloured() const {
   std::size_t all = 0;
   for (const LaserMapRun& map : maps) all += map.coloured;
-  return all;
-}
-
-std::size_t LasersRun::stereo() const {
-  std::size_t all = 0;
-  for (const LaserMapRun& map : maps) all += map.stereo;
   return all;
 }
 

@@ -20,7 +20,6 @@ struct LaserMapRun {
   std::string file;     ///< "map.ply", in the output folder
   std::size_t points = 0;
   std::map<std::string, std::size_t> points_by_sensor;  ///< names: roles; frames of other planar lasers
-  std::size_t stereo = 0;                               ///< points of dense stereo
   std::size_t coloured = 0;                             ///< points with the colour of a panorama
   std::size_t views = 0;                                ///< images used for its colours
   std::size_t passes = 0;
@@ -42,7 +41,6 @@ struct LasersRun {
   std::size_t points() const;
   std::map<std::string, std::size_t> pointsBySensor() const;
   std::size_t coloured() const;
-  std::size_t stereo() const;
   std::size_t chunksRendered() const;
   std::size_t ghostBeams() const;
   /// Return the agreement of the passes on walls and on ground, over all maps.

@@ -52,9 +52,12 @@ class LasersStage final : public Stage {
     run_ = runLasers(context.options.parameters.get(laser_mapper::table()), context, *along_odometry_);
     const laser_mapper::BeamCounts beams = run_->beams();
     Messages messages{calibrationSentences(*run_), lasersWarnings(*run_)};
-    messages.info.push_back("lasers: " + std::to_string(run_->points() - run_->stereo()) + " points of " +
-                            std::to_string(beams.all) + " beams and " + std::to_string(run_->stereo()) +
-                            " of dense stereo, " + std::to_string(run_->chunksRendered()) + " chunks rendered in " +
+    std::string points;
+    for (const auto& [sensor, count] : run_->pointsBySensor())
+      points += (points.empty() ? "" : ", ") + std::to_string(count) + " of " + sensor;
+    messages.info.push_back("lasers: " + std::to_string(run_->points()) + " points" +
+                            (points.empty() ? "" : " (" + points + ")") + ", " + std::to_string(beams.all) +
+                            " beams, " + std::to_string(run_->chunksRendered()) + " chunks rendered in " +
                             urban_nav_core::formatNumber(run_->seconds, 3) + " s");
     return messages;
   }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "topics/places/stored_verdicts.hpp"
 
+#include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -50,11 +52,14 @@ void addVerdict(VerdictsAt& verdicts, StampNs stamp, PlaceVerdict verdict) {
   if (!is_new && fabmap_node::logRatio(verdict) > fabmap_node::logRatio(known->second)) known->second = verdict;
 }
 
+/// `stamps`: in ascending order.
 std::optional<StampNs> nearestStamp(const std::vector<StampNs>& stamps, StampNs stamp) {
+  const auto after = std::lower_bound(stamps.begin(), stamps.end(), stamp);
   std::optional<StampNs> nearest;
-  for (const StampNs each : stamps)
-    if (std::abs(each - stamp) <= kOneObservation && (!nearest || std::abs(each - stamp) < std::abs(*nearest - stamp)))
-      nearest = each;
+  if (after != stamps.end()) nearest = *after;
+  if (after != stamps.begin() && (!nearest || stamp - *std::prev(after) <= *nearest - stamp))
+    nearest = *std::prev(after);
+  if (nearest && std::abs(*nearest - stamp) > kOneObservation) nearest.reset();
   return nearest;
 }
 

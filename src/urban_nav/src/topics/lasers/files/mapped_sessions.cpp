@@ -9,11 +9,7 @@ using urban_nav_core::Vector3d;
 using urban_nav_store::Store;
 using urban_nav_store::StoredTrajectory;
 
-namespace {
-
-constexpr urban_nav_core::StampNs kLongestBeamGap = 500'000'000;
-
-}  // namespace
+namespace {}  // namespace
 
 MappedSessions mappedSessions(Store& store, const std::vector<StoredTrajectory>& map) {
   MappedSessions result;
@@ -30,12 +26,8 @@ MappedSessions mappedSessions(Store& store, const std::vector<StoredTrajectory>&
 }
 
 std::optional<Vector3d> beamOrigin(const MappedSessions& mapped, const MapPoint& point) {
-  for (std::size_t s = 0; s < mapped.sessions.size(); ++s) {
-    const auto place = mapped.sensors[s].find(point.laser);
-    if (place == mapped.sensors[s].end()) continue;
-    if (const auto T_map_base = mapped.trajectories[s]->at(point.stamp, kLongestBeamGap))
-      return *T_map_base * place->second.t();
-  }
+  for (std::size_t s = 0; s < mapped.sessions.size(); ++s)
+    if (const auto origin = laser_mapper::beamOrigin(point, *mapped.trajectories[s], mapped.sensors[s])) return origin;
   return std::nullopt;
 }
 
