@@ -24,6 +24,7 @@ DISPLAYS = {
     "rviz/Image": ("Image Topic", "sensor_msgs/Image"),
     "rviz/MarkerArray": ("Marker Topic", "visualization_msgs/MarkerArray"),
     "rviz/LaserScan": ("Topic", "sensor_msgs/LaserScan"),
+    "rviz/Map": ("Topic", "nav_msgs/OccupancyGrid"),
     "rviz/Path": ("Topic", "nav_msgs/Path"),
     "rviz/PointCloud2": ("Topic", "sensor_msgs/PointCloud2"),
     "rviz/Odometry": ("Topic", "nav_msgs/Odometry"),

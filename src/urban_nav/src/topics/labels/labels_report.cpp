@@ -81,7 +81,7 @@ std::vector<std::string> labelsWarnings(const LabelsRun& run) {
   const double unsure = labelShare(run.unsure(), run.labelled());
   if (unsure > kManyUnsure && new_place.empty())
     warnings.push_back(urban_nav_core::formatNumber(100.0 * unsure, 3) +
-                       " % of the labels are unsure: the place differs from those that the model was trained on");
+                       " % of the labels are unsure; `urban_nav labels teach` trains a model for this place");
   return warnings;
 }
 
