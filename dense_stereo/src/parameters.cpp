@@ -21,7 +21,7 @@ const Table<Parameters>& table() {
            "Semi-global matching with aligned slanted windows, or the local matcher of the paper (for comparison; in "
            "the command only).",
            "section 6.2; Hirschmueller 2008", {}, Audience::Experts},
-          {"disparities", &P::disparities, "px", std::int64_t{64}, std::int64_t{16}, std::int64_t{240}, {},
+          {"disparities", &P::disparities, "px", std::int64_t{64}, std::int64_t{16}, std::int64_t{512}, {},
            "Disparities searched, from 0, rounded up to a multiple of 16. Nearer surfaces are not matched.",
            "section 6.2"},
           {"min_component", &P::min_component, "px", std::int64_t{100}, std::int64_t{0}, std::int64_t{1000000}, {},

@@ -44,7 +44,7 @@ std::unique_ptr<Matcher> makePaperMatcher(const Parameters& parameters) {
 }
 
 void PaperMatcher::match(const MatcherInput& input, DisparityImage& image) {
-  const int disparities = std::min((parameters_.disparities + 15) / 16 * 16, 240);
+  const int disparities = (parameters_.disparities + 15) / 16 * 16;
   filter_.apply(input.left, left_);
   filter_.apply(input.right, right_);
   whole_.resize(image.width, image.height);
@@ -60,7 +60,7 @@ void PaperMatcher::match(const MatcherInput& input, DisparityImage& image) {
 }
 
 void PaperMatcher::matchRow(const ScoreRow& row, int v, int disparities, DisparityImage& image) {
-  std::uint8_t* whole = whole_.row(v);
+  std::uint16_t* whole = whole_.row(v);
   const auto largest = static_cast<float>(parameters_.max_sigma * parameters_.max_sigma);
   for (int u = 0; u < image.width; ++u) {
     whole[u] = Winners::kInvalid;
@@ -77,7 +77,7 @@ void PaperMatcher::matchRow(const ScoreRow& row, int v, int disparities, Dispari
     const float sigma = kSigmaPerFlatness * flatness;
     const float variance = kLeastSigmaPx * kLeastSigmaPx + sigma * sigma;
     if (variance > largest) continue;
-    whole[u] = static_cast<std::uint8_t>(d);
+    whole[u] = static_cast<std::uint16_t>(d);
     const std::size_t at = image.index(u, v);
     image.disparity[at] = static_cast<float>(d) + 0.5F * static_cast<float>(before - after) / curvature;
     image.variance[at] = variance;

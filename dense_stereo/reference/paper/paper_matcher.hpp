@@ -26,7 +26,7 @@ class PaperMatcher final : public Matcher {
   LogFilter filter_;
   Padded<std::uint8_t> left_, right_;
   SupportingWindows<Words> windows_;
-  Padded<std::uint8_t> whole_;  ///< rounded disparities, 255 for invalid
+  Padded<std::uint16_t> whole_;  ///< rounded disparities, 65535 for invalid
   SmallComponents components_;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int32_t kNoLabel = -1;
 
-bool areConnected(std::uint8_t a, std::uint8_t b) { return static_cast<unsigned>(a - b + 1) <= 2U; }
+bool areConnected(std::uint16_t a, std::uint16_t b) { return static_cast<unsigned>(a - b + 1) <= 2U; }
 
 }  // namespace
 
@@ -31,7 +31,7 @@ std::int32_t SmallComponents::join(std::int32_t a, std::int32_t b) {
   return a;
 }
 
-void SmallComponents::remove(Padded<std::uint8_t>& disparity, int least) {
+void SmallComponents::remove(Padded<std::uint16_t>& disparity, int least) {
   labels_.resize(disparity.width(), disparity.height());
   parents_.resize(static_cast<std::size_t>(disparity.width()) * static_cast<std::size_t>(disparity.height()));
   sizes_.resize(parents_.size());
@@ -42,7 +42,7 @@ void SmallComponents::remove(Padded<std::uint8_t>& disparity, int least) {
     if (parent != label) sizes_[static_cast<std::size_t>(parent)] += sizes_[static_cast<std::size_t>(label)];
   }
   for (int v = 0; v < disparity.height(); ++v) {
-    std::uint8_t* d = disparity.row(v);
+    std::uint16_t* d = disparity.row(v);
     const std::int32_t* labels = labels_.row(v);
     std::int32_t last = kNoLabel;
     bool is_small = false;
@@ -56,10 +56,10 @@ void SmallComponents::remove(Padded<std::uint8_t>& disparity, int least) {
   }
 }
 
-void SmallComponents::labelRow(const Padded<std::uint8_t>& disparity, int v) {
+void SmallComponents::labelRow(const Padded<std::uint16_t>& disparity, int v) {
   const int width = disparity.width();
-  const std::uint8_t* d = disparity.row(v);
-  const std::uint8_t* above = disparity.clampedRow(v - 1);
+  const std::uint16_t* d = disparity.row(v);
+  const std::uint16_t* above = disparity.clampedRow(v - 1);
   std::int32_t* labels = labels_.row(v);
   const std::int32_t* labels_above = labels_.clampedRow(v - 1);
   labels[-1] = kNoLabel;

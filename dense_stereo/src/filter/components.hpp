@@ -12,11 +12,11 @@ namespace dense_stereo {
 /// Keeps its buffers. Not thread-safe.
 class SmallComponents {
  public:
-  /// Invalidates (255) components of fewer than `least` pixels.
-  void remove(Padded<std::uint8_t>& disparity, int least);
+  /// Invalidates (65535) components of fewer than `least` pixels.
+  void remove(Padded<std::uint16_t>& disparity, int least);
 
  private:
-  void labelRow(const Padded<std::uint8_t>& disparity, int v);
+  void labelRow(const Padded<std::uint16_t>& disparity, int v);
   std::int32_t find(std::int32_t label);
   std::int32_t join(std::int32_t a, std::int32_t b);
 

@@ -17,7 +17,7 @@ constexpr int kLongestGap = 8;  // px
 bool isDepthJump(int a, int b, int gap) { return 2 * std::abs(a - b) > std::max(2, gap); }
 
 /// Marks jumps along one row.
-void markAlong(const std::uint8_t* d, int width, std::uint8_t* marks) {
+void markAlong(const std::uint16_t* d, int width, std::uint8_t* marks) {
   int last = -1;
   for (int u = 0; u < width; ++u) {
     if (d[u] == Winners::kInvalid) continue;
@@ -28,7 +28,7 @@ void markAlong(const std::uint8_t* d, int width, std::uint8_t* marks) {
 
 }  // namespace
 
-void DepthEdges::mark(const Padded<std::uint8_t>& disparity, Padded<std::uint8_t>& edges) {
+void DepthEdges::mark(const Padded<std::uint16_t>& disparity, Padded<std::uint8_t>& edges) {
   const int width = disparity.width(), height = disparity.height();
   edges.resize(width, height);
   wide_.resize(width, height);
@@ -36,7 +36,7 @@ void DepthEdges::mark(const Padded<std::uint8_t>& disparity, Padded<std::uint8_t
   last_.assign(static_cast<std::size_t>(width), Winners::kInvalid);
   age_.assign(static_cast<std::size_t>(width), 0);
   for (int v = 0; v < height; ++v) {
-    const std::uint8_t* d = disparity.row(v);
+    const std::uint16_t* d = disparity.row(v);
     markAlong(d, width, edges.row(v));
     for (int u = 0; u < width; ++u) {
       const std::size_t i = static_cast<std::size_t>(u);

@@ -14,12 +14,13 @@ namespace dense_stereo {
 class DepthEdges {
  public:
   static constexpr int kRadius = 4;  ///< px
-  /// `disparity`: px, 255 for invalid. `edges`: 255 near an edge, else 0.
-  void mark(const Padded<std::uint8_t>& disparity, Padded<std::uint8_t>& edges);
+  /// `disparity`: px, 65535 for invalid. `edges`: 255 near an edge, else 0.
+  void mark(const Padded<std::uint16_t>& disparity, Padded<std::uint8_t>& edges);
 
  private:
-  std::vector<std::uint8_t> last_, age_;  ///< per column: the last valid disparity, and rows since then
-  Padded<std::uint8_t> wide_;             ///< marks, dilated along rows
+  std::vector<std::uint16_t> last_;  ///< per column: the last valid disparity
+  std::vector<std::uint8_t> age_;    ///< rows since then
+  Padded<std::uint8_t> wide_;        ///< marks, dilated along rows
 };
 
 }  // namespace dense_stereo

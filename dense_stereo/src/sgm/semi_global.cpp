@@ -47,7 +47,7 @@ unsigned firstBit(unsigned bits) { return static_cast<unsigned>(__builtin_ctz(bi
 
 template <typename V>
 void SemiGlobal<V>::resize(int width, int height, int disparities) {
-  assert(width > 0 && height > 0 && disparities >= 16 && disparities <= 240 && disparities % 16 == 0);
+  assert(width > 0 && height > 0 && disparities >= 16 && disparities <= 512 && disparities % 16 == 0);
   if (width == width_ && height == height_ && disparities == disparities_) return;
   width_ = width;
   height_ = height;
@@ -64,6 +64,7 @@ void SemiGlobal<V>::resize(int width, int height, int disparities) {
   for (auto& pixel : along_) pixel.assign(static_cast<std::size_t>(disparities + 2 * kLanes), kInfinite);
   right_cost_.assign(static_cast<std::size_t>(width + disparities), 0);
   right_disparity_ = right_cost_;
+  right_high_ = right_cost_;
   around_.assign(static_cast<std::size_t>(2 * disparities + 2 * kLanes), 0);
   for (int i = -1; i <= 1; ++i) around_[static_cast<std::size_t>(disparities + kLanes + i)] = 255;
 }
@@ -84,20 +85,22 @@ void SemiGlobal<V>::match(const Padded<std::uint8_t>& left, const Padded<std::ui
     std::memset(above_.data() + kLanes + u * stride, 0, static_cast<std::size_t>(disparities_));
   std::fill(above_least_.begin(), above_least_.end(), std::uint8_t{0});
   switch (disparities_) {  // common sizes have loops of constant length
-    case 64: return matchRows<4>(left, right, winners);
-    case 128: return matchRows<8>(left, right, winners);
-    default: return matchRows<0>(left, right, winners);
+    case 64: return matchRows<4, false>(left, right, winners);
+    case 128: return matchRows<8, false>(left, right, winners);
+    default:
+      if (disparities_ > 256) return matchRows<0, true>(left, right, winners);
+      return matchRows<0, false>(left, right, winners);
   }
 }
 
 template <typename V>
-template <int blocks>
+template <int blocks, bool is_wide>
 void SemiGlobal<V>::matchRows(const Padded<std::uint8_t>& left, const Padded<std::uint8_t>& right, Winners& winners) {
   for (int v = 0; v < height_; ++v) {
     describeRow<V>(left, v, PixelOrder::Forward, left_row_);
     describeRow<V>(right, v, PixelOrder::Backward, right_row_);
     sweepRight<blocks>(left.row(v), left.clampedRow(v - 1));
-    sweepLeft<blocks>(left.row(v), winners.disparity.row(v), winners.cost.row(v), winners.rival.row(v));
+    sweepLeft<blocks, is_wide>(left.row(v), winners.disparity.row(v), winners.cost.row(v), winners.rival.row(v));
     checkAgainstRight(winners.disparity.row(v));
   }
 }
@@ -151,8 +154,8 @@ void SemiGlobal<V>::sweepRight(const std::uint8_t* pixels, const std::uint8_t* p
 }
 
 template <typename V>
-template <int blocks>
-void SemiGlobal<V>::sweepLeft(const std::uint8_t* pixels, std::uint8_t* disparity, std::uint8_t* cost,
+template <int blocks, bool is_wide>
+void SemiGlobal<V>::sweepLeft(const std::uint8_t* pixels, std::uint16_t* disparity, std::uint8_t* cost,
                               std::uint8_t* rival) {
   const int disparities = blocks > 0 ? kLanes * blocks : disparities_;
   std::uint8_t* before = along_[0].data() + kLanes;
@@ -167,6 +170,7 @@ void SemiGlobal<V>::sweepLeft(const std::uint8_t* pixels, std::uint8_t* disparit
     PathStep<V> along(before, least_before, jump, penalties_.step);
     std::uint8_t* right_cost = right_cost_.data() + (width_ - 1 - u);
     std::uint8_t* right_disparity = right_disparity_.data() + (width_ - 1 - u);
+    [[maybe_unused]] std::uint8_t* right_high = right_high_.data() + (width_ - 1 - u);
     V best = V::splat(kInfinite);
     for (int d = 0; d < disparities; d += kLanes) {
       const V from_right = along.extend(d, V::load(costs + d));
@@ -176,8 +180,9 @@ void SemiGlobal<V>::sweepLeft(const std::uint8_t* pixels, std::uint8_t* disparit
       best = min(best, sum);
       const V right_best = min(V::load(right_cost + d), sum);
       right_best.store(right_cost + d);
-      const V here = add(V::load(kCounting), V::splat(d));
-      select(equal(right_best, sum), here, V::load(right_disparity + d)).store(right_disparity + d);
+      const V is_best = equal(right_best, sum), here = add(V::load(kCounting), V::splat(d & 255));
+      select(is_best, here, V::load(right_disparity + d)).store(right_disparity + d);
+      if constexpr (is_wide) select(is_best, V::splat(d / 256), V::load(right_high + d)).store(right_high + d);
     }
     least_before = least(along.run);
     std::swap(before, now);
@@ -193,17 +198,19 @@ void SemiGlobal<V>::sweepLeft(const std::uint8_t* pixels, std::uint8_t* disparit
     const std::uint8_t* around = around_.data() + disparities + kLanes - winner;
     V second = V::splat(kInfinite);
     for (int d = 0; d < disparities; d += kLanes) second = min(second, either(V::load(around + d), V::load(sums + d)));
-    disparity[u] = static_cast<std::uint8_t>(winner);
+    disparity[u] = static_cast<std::uint16_t>(winner);
     cost[u] = static_cast<std::uint8_t>(least(best));
     rival[u] = static_cast<std::uint8_t>(least(second));
   }
 }
 
 template <typename V>
-void SemiGlobal<V>::checkAgainstRight(std::uint8_t* disparity) const {
+void SemiGlobal<V>::checkAgainstRight(std::uint16_t* disparity) const {
+  const bool is_wide = disparities_ > 256;
   for (int u = 0; u < width_; ++u) {
     const int d = disparity[u];
-    if (d > u || std::abs(right_disparity_[static_cast<std::size_t>(width_ - 1 - u + d)] - d) > 2)
+    const std::size_t right = static_cast<std::size_t>(width_ - 1 - u + d);
+    if (d > u || std::abs(right_disparity_[right] + (is_wide ? 256 * right_high_[right] : 0) - d) > 2)
       disparity[u] = Winners::kInvalid;
   }
 }

@@ -21,10 +21,10 @@ struct Penalties {
 
 /// Best disparity of each pixel.
 struct Winners {
-  static constexpr std::uint8_t kInvalid = 255;
-  Padded<std::uint8_t> disparity;  ///< px, `kInvalid` where the right image's best disparity differs by more than two
-  Padded<std::uint8_t> cost;       ///< sum of the three path costs at the best disparity, saturated
-  Padded<std::uint8_t> rival;      ///< smallest sum at disparities that differ by more than one, saturated
+  static constexpr std::uint16_t kInvalid = 65535;
+  Padded<std::uint16_t> disparity;  ///< px, `kInvalid` where the right image's best disparity differs by more than two
+  Padded<std::uint8_t> cost;        ///< sum of the three path costs at the best disparity, saturated
+  Padded<std::uint8_t> rival;       ///< smallest sum at disparities that differ by more than one, saturated
 };
 
 /// Semi-global matching (Hirschmueller 2008) along three paths, from the left, from above and from the right, in one
@@ -35,7 +35,7 @@ struct Winners {
 template <typename V>
 class SemiGlobal {
  public:
-  /// Allocates for images of this size. `disparities`: 16...240, a multiple of 16; the search range is 0...disparities
+  /// Allocates for images of this size. `disparities`: 16...512, a multiple of 16; the search range is 0...disparities
   /// - 1 px.
   void resize(int width, int height, int disparities);
   /// Matches images of the size given to resize(), with rows extended by extendRows().
@@ -43,13 +43,14 @@ class SemiGlobal {
              Winners& winners);
 
  private:
-  template <int blocks>
+  /// `is_wide`: disparities do not fit 8 bits.
+  template <int blocks, bool is_wide>
   void matchRows(const Padded<std::uint8_t>& left, const Padded<std::uint8_t>& right, Winners& winners);
   template <int blocks>
   void sweepRight(const std::uint8_t* pixels, const std::uint8_t* pixels_above);
-  template <int blocks>
-  void sweepLeft(const std::uint8_t* pixels, std::uint8_t* disparity, std::uint8_t* cost, std::uint8_t* rival);
-  void checkAgainstRight(std::uint8_t* disparity) const;
+  template <int blocks, bool is_wide>
+  void sweepLeft(const std::uint8_t* pixels, std::uint16_t* disparity, std::uint8_t* cost, std::uint8_t* rival);
+  void checkAgainstRight(std::uint16_t* disparity) const;
 
   int width_ = 0, height_ = 0, disparities_ = 0;
   Penalties penalties_;
@@ -59,6 +60,7 @@ class SemiGlobal {
   std::vector<std::uint8_t> above_, above_least_;           ///< path from above: previous row
   std::array<std::vector<std::uint8_t>, 2> along_;          ///< path along the row: previous and current pixel
   std::vector<std::uint8_t> right_cost_, right_disparity_;  ///< best disparities of the right image, from its right end
+  std::vector<std::uint8_t> right_high_;                    ///< their higher bytes; not used if they fit 8 bits
   std::vector<std::uint8_t> around_;                        ///< 255 at the best disparity and its neighbours, else 0
 };
 

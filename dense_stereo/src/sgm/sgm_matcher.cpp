@@ -17,14 +17,14 @@ constexpr float kLeastSigma = 0.097F;            // px, errors not contained in 
 
 void SgmMatcher::match(const MatcherInput& input, DisparityImage& image) {
   const int width = input.left.width(), height = input.left.height();
-  const int disparities = std::min((parameters_.disparities + 15) / 16 * 16, 240);
+  const int disparities = (parameters_.disparities + 15) / 16 * 16;
   semi_global_.resize(width, height, disparities);
   semi_global_.match(input.left, input.right, Penalties{}, winners_);
   components_.remove(winners_.disparity, parameters_.min_component);
   depth_edges_.mark(winners_.disparity, edges_);
   start_.resize(width, height, DisparityField::kInvalid);
   for (int v = 0; v < height; ++v) {
-    const std::uint8_t* from = winners_.disparity.row(v);
+    const std::uint16_t* from = winners_.disparity.row(v);
     float* to = start_.row(v);
     for (int u = 0; u < width; ++u)
       to[u] = from[u] == Winners::kInvalid ? DisparityField::kInvalid : static_cast<float>(from[u]);
@@ -42,7 +42,7 @@ Exposure SgmMatcher::compareBrightness(const MatcherInput& input) const {
   for (int v = 0; v < input.left.height(); v += 2) {
     const std::uint8_t* l = input.left.row(v);
     const std::uint8_t* r = input.right.row(v);
-    const std::uint8_t* d = winners_.disparity.row(v);
+    const std::uint16_t* d = winners_.disparity.row(v);
     for (int u = v / 2 % 4; u < input.left.width(); u += 4) {
       if (d[u] == Winners::kInvalid) continue;
       const int p = l[u], q = r[u - d[u]];

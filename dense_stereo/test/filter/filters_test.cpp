@@ -13,15 +13,16 @@
 namespace dense_stereo {
 namespace {
 
-Padded<std::uint8_t> constantMap(int width, int height, std::uint8_t value) {
-  Padded<std::uint8_t> map;
+template <typename T = std::uint16_t>
+Padded<T> constantMap(int width, int height, T value) {
+  Padded<T> map;
   map.resize(width, height);
   map.fill(value);
   return map;
 }
 
 /// Size of the 8-connected component of a pixel, by flood fill.
-int floodFill(const Padded<std::uint8_t>& d, int u, int v) {
+int floodFill(const Padded<std::uint16_t>& d, int u, int v) {
   std::vector<char> seen(static_cast<std::size_t>(d.width() * d.height()), 0);
   std::vector<std::pair<int, int>> stack{{u, v}};
   seen[static_cast<std::size_t>(v * d.width() + u)] = 1;
@@ -46,11 +47,11 @@ int floodFill(const Padded<std::uint8_t>& d, int u, int v) {
 TEST(SmallComponents, RemovesWhatAFloodFillFindsSmall) {
   std::mt19937 random(4);
   for (int round = 0; round < 4; ++round) {
-    Padded<std::uint8_t> map = constantMap(60, 40, 0);
+    Padded<std::uint16_t> map = constantMap(60, 40, std::uint16_t{0});
     for (int v = 0; v < 40; ++v)
       for (int u = 0; u < 60; ++u)
-        map.row(v)[u] = random() % 5 == 0 ? Winners::kInvalid : static_cast<std::uint8_t>(10 + random() % 4);
-    const Padded<std::uint8_t> before = map;
+        map.row(v)[u] = random() % 5 == 0 ? Winners::kInvalid : static_cast<std::uint16_t>(400 + random() % 4);
+    const Padded<std::uint16_t> before = map;
     SmallComponents().remove(map, 6);
     for (int v = 0; v < 40; ++v)
       for (int u = 0; u < 60; ++u) {
@@ -61,7 +62,7 @@ TEST(SmallComponents, RemovesWhatAFloodFillFindsSmall) {
 }
 
 TEST(DepthEdges, MarksAWindowAroundAStepAndNothingElse) {
-  Padded<std::uint8_t> map = constantMap(64, 32, 10);
+  Padded<std::uint16_t> map = constantMap(64, 32, std::uint16_t{10});
   for (int v = 0; v < 32; ++v)
     for (int u = 30; u < 64; ++u) map.row(v)[u] = 14;
   Padded<std::uint8_t> edges;
@@ -71,11 +72,12 @@ TEST(DepthEdges, MarksAWindowAroundAStepAndNothingElse) {
 }
 
 TEST(DepthEdges, DetectsEdgesAcrossOccludedStripsAndIgnoresSlants) {
-  Padded<std::uint8_t> map = constantMap(64, 32, 10), slanted = constantMap(64, 32, 0), edges;
+  Padded<std::uint16_t> map = constantMap(64, 32, std::uint16_t{10}), slanted = constantMap(64, 32, std::uint16_t{0});
+  Padded<std::uint8_t> edges;
   for (int v = 0; v < 32; ++v)
     for (int u = 0; u < 64; ++u) {
       if (u >= 24) map.row(v)[u] = u < 30 ? Winners::kInvalid : 20;
-      slanted.row(v)[u] = static_cast<std::uint8_t>(10 + u / 2 + v / 2);
+      slanted.row(v)[u] = static_cast<std::uint16_t>(10 + u / 2 + v / 2);
     }
   DepthEdges().mark(map, edges);
   EXPECT_NE(edges.row(10)[23], 0);
@@ -89,11 +91,11 @@ TEST(DepthEdges, DetectsEdgesAcrossOccludedStripsAndIgnoresSlants) {
 /// Textured lower half below a flat, saturated sky, all at one disparity, as filled by semi-global matching.
 TEST(UnsupportedRegions, RemovesTheFlatSkyAndKeepsTexture) {
   std::mt19937 random(1);
-  Padded<std::uint8_t> left = constantMap(96, 96, 255);
+  Padded<std::uint8_t> left = constantMap(96, 96, std::uint8_t{255});
   Winners winners;
-  winners.disparity = constantMap(96, 96, 12);
-  winners.cost = constantMap(96, 96, 20);
-  winners.rival = constantMap(96, 96, 30);
+  winners.disparity = constantMap(96, 96, std::uint16_t{12});
+  winners.cost = constantMap(96, 96, std::uint8_t{20});
+  winners.rival = constantMap(96, 96, std::uint8_t{30});
   DisparityField field;
   field.disparity.resize(96, 96, 12.0F);
   field.noise.resize(96, 96, 0.1F);
@@ -116,11 +118,11 @@ TEST(UnsupportedRegions, RemovesTheFlatSkyAndKeepsTexture) {
 TEST(UnsupportedRegions, RemovesTheSkyUpToTheOutlineAndKeepsAFlatPatchWithinTexture) {
   constexpr int kHorizon = 60, kReached = 53;
   std::mt19937 random(2);
-  Padded<std::uint8_t> left = constantMap(96, 128, 220);
+  Padded<std::uint8_t> left = constantMap(96, 128, std::uint8_t{220});
   Winners winners;
-  winners.disparity = constantMap(96, 128, 12);
-  winners.cost = constantMap(96, 128, 20);
-  winners.rival = constantMap(96, 128, 30);
+  winners.disparity = constantMap(96, 128, std::uint16_t{12});
+  winners.cost = constantMap(96, 128, std::uint8_t{20});
+  winners.rival = constantMap(96, 128, std::uint8_t{30});
   DisparityField field;
   field.disparity.resize(96, 128, 12.0F);
   field.noise.resize(96, 128, 0.1F);

@@ -24,14 +24,15 @@ Winners matchedBy(const Padded<std::uint8_t>& left, const Padded<std::uint8_t>& 
   return winners;
 }
 
-bool sameRows(const Padded<std::uint8_t>& a, const Padded<std::uint8_t>& b) {
+template <typename T>
+bool sameRows(const Padded<T>& a, const Padded<T>& b) {
   for (int v = 0; v < a.height(); ++v)
     if (!std::equal(a.row(v), a.row(v) + a.width(), b.row(v))) return false;
   return true;
 }
 
 TEST(SemiGlobal, VectorsGiveTheBytesOfPlainCode) {
-  for (const int disparities : {16, 48, 64, 128}) {
+  for (const int disparities : {16, 48, 64, 128, 256, 272, 512}) {
     const auto right = noiseImage(141, 19, 3), left = shiftedImage(right, 11);
     const Winners fast = matchedBy<Bytes>(left, right, disparities),
                   plain = matchedBy<PlainBytes>(left, right, disparities);
@@ -47,6 +48,16 @@ TEST(SemiGlobal, FindsOneShiftWhereBothImagesShowTheScene) {
   const Winners winners = matchedBy<Bytes>(left, right, 64);
   for (int v = 0; v < left.height(); ++v)
     for (int u = 2 * shift; u < left.width() - 4; ++u) ASSERT_EQ(winners.disparity.row(v)[u], shift) << u << " " << v;
+}
+
+TEST(SemiGlobal, FindsDisparitiesThatDoNotFitAByte) {
+  for (const int shift : {254, 255, 256, 300, 505}) {
+    const auto right = noiseImage(900, 12, 5), left = shiftedImage(right, shift);
+    const Winners winners = matchedBy<Bytes>(left, right, 512);
+    for (int v = 0; v < left.height(); ++v)
+      for (int u = shift + 20; u < left.width() - 4; ++u)
+        ASSERT_EQ(winners.disparity.row(v)[u], shift) << u << " " << v;
+  }
 }
 
 TEST(SemiGlobal, AnswersTheLeftMarginWithDisparitiesInsideTheRightImage) {

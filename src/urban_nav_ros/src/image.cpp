@@ -151,6 +151,11 @@ GreyImage withOwnScale(GreyImage deep) {
 
 }  // namespace
 
+bool hasColour(const sensor_msgs::CompressedImage& message) {
+  const cv::Mat decoded = decode(message).pixels;
+  return decoded.channels() >= 3 || (!decoded.empty() && mosaicLayout(message.format, decoded) != nullptr);
+}
+
 cv::Mat toEightBits(const cv::Mat& deep, const GreyScale& scale) {
   CV_Assert(deep.depth() == CV_16U);
   std::vector<std::uint8_t> table(65536);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "urban_nav_ros/recorded_image.hpp"
 
+#include <algorithm>
 #include <array>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -21,12 +22,14 @@ constexpr int kSameOrder = -1;
 
 /// Encodings with colour. ROS names a Bayer pattern by the first two pixels of the first row, OpenCV by the second and
 /// third pixel of the second row.
-constexpr std::array<ColourLayout, 10> kColourLayouts = {{{"bgr8", CV_8UC3, kSameOrder},
+constexpr std::array<ColourLayout, 12> kColourLayouts = {{{"bgr8", CV_8UC3, kSameOrder},
                                                           {"8UC3", CV_8UC3, kSameOrder},
                                                           {"rgb8", CV_8UC3, cv::COLOR_RGB2BGR},
                                                           {"bgra8", CV_8UC4, cv::COLOR_BGRA2BGR},
                                                           {"8UC4", CV_8UC4, cv::COLOR_BGRA2BGR},
                                                           {"rgba8", CV_8UC4, cv::COLOR_RGBA2BGR},
+                                                          {"yuv422", CV_8UC2, cv::COLOR_YUV2BGR_UYVY},
+                                                          {"yuv422_yuy2", CV_8UC2, cv::COLOR_YUV2BGR_YUY2},
                                                           {"bayer_rggb8", CV_8UC1, cv::COLOR_BayerBG2BGR},
                                                           {"bayer_bggr8", CV_8UC1, cv::COLOR_BayerRG2BGR},
                                                           {"bayer_gbrg8", CV_8UC1, cv::COLOR_BayerGR2BGR},
@@ -94,6 +97,13 @@ ColourImage RecordedImage::colour() const {
   if (compressed_) return toColourImage(*compressed_, scale_);
   if (!raw_) return {{}, "no image"};
   return toColourImage(*raw_, scale_);
+}
+
+bool RecordedImage::hasColour() const {
+  if (raw_)
+    return std::any_of(kColourLayouts.begin(), kColourLayouts.end(),
+                       [&](const ColourLayout& layout) { return raw_->encoding == layout.encoding; });
+  return compressed_ && urban_nav_ros::hasColour(*compressed_);
 }
 
 std::string RecordedImage::jpeg() const {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "convert/bag_writer.hpp"
+#include "convert/colour_topic.hpp"
 #include "convert/convert.hpp"
 #include "convert/stereo_topics.hpp"
 #include "convert/sweep_topics.hpp"
@@ -76,7 +77,7 @@ void refuseFaults(const urban_nav_input::SourceItem& input) {
 
 Converted convertStereoFolder(const std::string& folder, const std::string& path,
                               urban_nav_input::SourceOptions options, Console& console, bool ahead) {
-  options.with_sweeps = true;
+  options.with_sweeps = options.with_colour = true;
   std::unique_ptr<urban_nav_input::Source> source = urban_nav_input::openSource({folder}, options);
   if (ahead) source = urban_nav_input::readAhead(std::move(source), 4);
   const urban_nav_input::SourceInfo& info = source->info();
@@ -89,6 +90,7 @@ Converted convertStereoFolder(const std::string& folder, const std::string& path
   std::vector<sensor_msgs::Imu> imu;
   std::vector<geometry_msgs::TransformStamped> transforms;
   if (info.has_images) transforms = stereoTransforms(info.camera, info.T_base_camera);
+  for (const auto& transform : colourTransforms(info)) transforms.push_back(transform);
   if (urban_nav_input::inputKind(folder) == urban_nav_input::InputKind::EurocFolder) {
     for (const urban_nav_input::EurocImu& row : urban_nav_input::readEurocImu(urban_nav_input::eurocFolder(folder)))
       imu.push_back(urban_nav_input::toImuMessage(row));
@@ -115,6 +117,7 @@ Converted convertStereoFolder(const std::string& folder, const std::string& path
     const urban_nav_core::StereoPair& pair = input->assembled.pair;
     companions.writeUntil(pair.stamp, bag);
     writeStereo(pair, pair.stamp + shift, info.camera, bag);
+    writeColours(*input, info, shift, bag);
     progress.update(++frames);
   }
   companions.writeUntil(std::numeric_limits<StampNs>::max(), bag);

@@ -20,8 +20,9 @@ KittiSweepTopic::KittiSweepTopic(const std::string& folder, double rate) {
   std::vector<std::string> same_as_source;
   files_ = urban_nav_input::stampKittiSweeps(*layout, rate, same_as_source);
   if (is_deskewed_)
-    notes_.push_back(layout->name + ": the data set has deskewed the sweeps, which a bag does not state; read it with "
-                                    "--set input.points_deskewed=yes");
+    notes_.push_back(layout->name +
+                     ": the data set has deskewed the sweeps, which a bag does not state; read it with "
+                     "--set input.points_deskewed=yes");
 }
 
 void KittiSweepTopic::writeUntil(StampNs stamp, StampNs shift, BagWriter& bag) {

@@ -38,6 +38,9 @@ class SessionPass {
   /// Observes an image of a depth camera, if a stage of the run uses them (Stage::Description). Images come in the
   /// order of the reader, each before the first pair or sweep that was read after it.
   virtual void process(const urban_nav_input::DepthInput&) {}
+  /// Observes an image of a camera that colours the map, if a stage of the run uses them (Stage::Description), in the
+  /// order of the reader.
+  virtual void process(const urban_nav_input::ColourInput&) {}
   /// Writes new results to the store. Called before each commit, about once a second.
   virtual void flush() {}
   /// Returns the state at the end of a bag, from which a new object continues bit-exactly. All previous results

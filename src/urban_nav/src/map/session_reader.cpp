@@ -32,6 +32,7 @@ std::unique_ptr<urban_nav_input::Source> SessionReader::openSource(const urban_n
   for (const Stage* stage : stages_) {
     source_options.with_sweeps = source_options.with_sweeps || stage->describe().uses_sweeps;
     source_options.with_depth = source_options.with_depth || stage->describe().uses_depth;
+    source_options.with_colour = source_options.with_colour || stage->describe().uses_colour;
   }
   source_options.with_planar_sweeps = options.odometry == OdometryOption::Laser;
   const urban_nav_input::InputSession& input = context_.sessions[session_].input;
@@ -65,7 +66,8 @@ void SessionReader::openPasses(const BagCheckpoint* checkpoint) {
 void SessionReader::openResumed() {
   const std::optional<RunCheckpoint::ResumePoint>& point = checkpoint_.resumePoint(session_);
   if (!point) return;
-  const urban_nav_input::BagEnd after{point->bags, point->checkpoint.receipt, point->checkpoint.reader, {}, {}, {}, {}};
+  const urban_nav_input::BagEnd after{point->bags, point->checkpoint.receipt, point->checkpoint.reader, {}, {}, {}, {},
+                                      {}};
   try {
     source_ = openSource(&after);
     openPasses(&point->checkpoint);
@@ -117,6 +119,7 @@ void SessionReader::processAll(const std::vector<Input>& inputs) {
 
 void SessionReader::saveBagEnd(const urban_nav_input::BagEnd& end) {
   processAll(end.depths);
+  processAll(end.colours);
   processAll(end.panoramas);
   processAll(end.sweeps);
   flush();
@@ -137,6 +140,7 @@ void SessionReader::read(const ProgressCallback& progress) {
     if (input->bag_end) saveBagEnd(*input->bag_end);
     checkpoint_.writeScans(input->scans);
     processAll(input->depths);
+    processAll(input->colours);
     processAll(input->panoramas);
     processAll(input->sweeps);
     if (input->has_pair) {
@@ -155,6 +159,7 @@ void SessionReader::read(const ProgressCallback& progress) {
   if (const auto end = source_->bagEnd()) saveBagEnd(*end);
   checkpoint_.writeScans(source_->scans());
   processAll(source_->depths());
+  processAll(source_->colours());
   processAll(source_->panoramas());
   processAll(source_->sweeps());
   std::vector<std::string> faults = source_->closingFaults();

@@ -29,6 +29,7 @@ class Stage {
     bool uses_previous = false;      ///< reads MapContext::previous
     std::vector<std::string> files;  ///< names of its possible files; "#" is fileSuffix()
     bool uses_depth = false;         ///< processes images of depth cameras
+    bool uses_colour = false;        ///< processes images of cameras that colour the map
     bool uses_sweeps = false;        ///< processes sweeps of 3D LiDARs; sessions without images are then read too
   };
   struct Selection {

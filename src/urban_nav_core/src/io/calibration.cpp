@@ -128,6 +128,18 @@ StereoCamera parseKittiCalibration(std::string_view text, const std::string& nam
   return stereoCamera(makeInfo(*left, width, height), makeInfo(*right, width, height), name);
 }
 
+std::optional<Vector3d> parseKittiOffset(std::string_view text, const std::string& name, KittiPair pair) {
+  const std::string a = pair == KittiPair::Grey ? "0" : "2";
+  std::optional<Projection> left;
+  forEachLine(text, [&](std::string_view line, int number) {
+    if (const auto P = parseProjection(line, "P" + a, "P_rect_0" + a, atLine(name, number))) left = P;
+  });
+  if (!left) return std::nullopt;
+  const CameraInfo info = makeInfo(*left, 1, 1);
+  (void)rectifiedPinhole(info, name);
+  return Vector3d(info.K.inverse() * left->col(3));
+}
+
 StereoCamera readKittiCalibration(const std::string& path, int width, int height, KittiPair pair) {
   return parseKittiCalibration(readTextFile(path), path, width, height, pair);
 }

@@ -226,7 +226,7 @@ Diagnosis examine(const InputSession& session, const SourceOptions& options,
   Diagnosis diagnosis;
   diagnosis.name = session.paths.front();
   SourceOptions used = options;
-  used.with_depth = true;
+  used.with_depth = used.with_colour = true;
   std::optional<Finding> fault;
   try {
     const std::unique_ptr<Source> source = readAhead(openToExamine(session, used, fault), 8);

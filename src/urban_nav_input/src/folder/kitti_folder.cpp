@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "folder/kitti_colour.hpp"
 #include "folder/kitti_sweep_stream.hpp"
 #include "folder/unused_files.hpp"
 #include "urban_nav_core/io/numbers.hpp"
@@ -46,6 +47,7 @@ class KittiFolder : public Source {
       throw urban_nav_core::DataError(folder,
                                       "has only images, no data for input.motion_input = " + options.motion_input, "");
     if (layout) look(options.calibration);
+    if (layout && options.with_colour) findColour();
     describeInputs();
     noteUnused(folder);
   }
@@ -69,6 +71,8 @@ class KittiFolder : public Source {
         sharedView(read(urban_nav_ros::Side::Left, number, input.faults));
     std::tie(assembled.pair.right, assembled.right_owner) =
         sharedView(read(urban_nav_ros::Side::Right, number, input.faults));
+    if (colour_)
+      if (auto image = colour_->read(number, frames_.stamps[position_])) input.colours.push_back(std::move(*image));
     ++position_;
     return input;
   }
@@ -105,6 +109,18 @@ class KittiFolder : public Source {
     info_.last = sweeps_->last();
   }
 
+  void findColour() {
+    if (layout_.pair == urban_nav_core::KittiPair::Grey) {
+      colour_ = KittiColour::ofCamera2(layout_, info_.T_base_camera, info_.notes);
+    } else {
+      const urban_nav_core::RawCamera camera = raw_left_.value_or(urban_nav_core::RawCamera{info_.camera.left, {}});
+      const urban_nav_core::Pose T_base_left =
+          calibration_ ? info_.T_base_camera * calibration_->T_optical_rectified().inverse() : info_.T_base_camera;
+      colour_ = KittiColour::ofPair(layout_, frames_.left, camera, T_base_left);
+    }
+    if (colour_) info_.colour_cameras = {colour_->camera()};
+  }
+
   void describeInputs() {
     const auto add = [this](Role role, const std::string& folder, std::size_t files) {
       if (files == 0) return;
@@ -116,6 +132,8 @@ class KittiFolder : public Source {
     };
     add(Role::Left, layout_.left, frames_.left.size());
     add(Role::Right, layout_.right, frames_.right.size());
+    if (colour_ && layout_.pair == urban_nav_core::KittiPair::Grey)
+      add(Role::Colour0, colour_->folder(), colour_->files());
     if (sweeps_) info_.inputs.push_back(sweeps_->describe());
   }
 
@@ -123,6 +141,7 @@ class KittiFolder : public Source {
     std::set<std::string> used = {"calib.txt", "calib_cam_to_cam.txt", "perspective.txt",
                                   "times.txt", "timestamps.txt",       "poses.txt"};
     for (const std::string& images : {layout_.left, layout_.right}) used.insert(firstPartWithin(folder, images));
+    if (colour_) used.insert(firstPartWithin(folder, colour_->folder()));
     if (sweeps_) {
       used.insert("calib_velo_to_cam.txt");
       used.insert(firstPartWithin(folder, sweep_files_));
@@ -176,6 +195,7 @@ class KittiFolder : public Source {
           sizeText(size_.width, size_.height) + ", the size of the images of " + info_.name);
     scaleBaseline(baseline_scale_, left, right);
     calibration_.emplace(left, right, false, files);
+    raw_left_ = rawCamera(withRawCamera(left), files);
     info_.camera = calibration_->camera();
     info_.notes.push_back("calibration: " + files);
     if (calibration_->rectifies()) info_.notes.push_back("raw images with distortion, rectified on the way");
@@ -210,7 +230,9 @@ class KittiFolder : public Source {
   KittiFrames frames_;
   SourceInfo info_;
   std::optional<urban_nav_ros::StereoCalibration> calibration_;  // if given by the user
-  cv::Size size_;                                                // of the images in the folder
+  std::optional<urban_nav_core::RawCamera> raw_left_;            // if given by the user
+  std::optional<KittiColour> colour_;
+  cv::Size size_;  // of the images in the folder
   urban_nav_ros::GreyScale scale_;
   std::size_t position_ = 0;
   std::optional<KittiSweepStream> sweeps_;

@@ -75,17 +75,29 @@ std::map<std::int64_t, std::string> listFrames(const std::string& folder) {
   return frames;
 }
 
-StereoCamera readKittiCamera(const KittiLayout& layout, int width, int height) {
-  const fs::path folder(layout.folder);
+std::string findKittiCalibration(const std::string& at) {
+  const fs::path folder(at);
   const fs::path above = fs::absolute(folder / ".").lexically_normal().parent_path().parent_path();
   for (const fs::path& path : {folder / "calib.txt", folder / "calib_cam_to_cam.txt", above / "calib_cam_to_cam.txt",
-                               folder / "perspective.txt", above.parent_path() / "calibration" / "perspective.txt"}) {
-    if (fs::exists(path)) return urban_nav_core::readKittiCalibration(path.string(), width, height, layout.pair);
-  }
+                               folder / "perspective.txt", above.parent_path() / "calibration" / "perspective.txt"})
+    if (fs::exists(path)) return path.string();
+  return {};
+}
+
+StereoCamera readKittiCamera(const KittiLayout& layout, int width, int height) {
+  const std::string path = findKittiCalibration(layout.folder);
+  if (!path.empty()) return urban_nav_core::readKittiCalibration(path, width, height, layout.pair);
   throw UserError(
-      (folder / "calib.txt").string(), "does not exist",
+      (fs::path(layout.folder) / "calib.txt").string(), "does not exist",
       "calib.txt with rows P0 and P1, calib_cam_to_cam.txt, KITTI-360's calibration/perspective.txt, or --calibration "
       "FILE");
+}
+
+urban_nav_core::Vector3d readKittiOffset(const std::string& folder, KittiPair pair) {
+  const std::string path = findKittiCalibration(folder);
+  if (path.empty()) return urban_nav_core::Vector3d::Zero();
+  return urban_nav_core::parseKittiOffset(urban_nav_core::readTextFile(path), path, pair)
+      .value_or(urban_nav_core::Vector3d::Zero());
 }
 
 KittiTimes readKittiTimes(const KittiLayout& layout) {

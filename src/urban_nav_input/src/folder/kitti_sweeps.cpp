@@ -40,6 +40,21 @@ std::string findFile(const std::string& folder, const char* name) {
   return {};
 }
 
+/// Returns T_camera_lidar of the rectified camera 0.
+std::optional<urban_nav_core::Pose> readFirstCameraLidar(const std::string& folder) {
+  const std::string calibration = (fs::path(folder) / "calib.txt").string();
+  if (fs::exists(calibration))
+    if (const auto T = urban_nav_core::parseKittiTr(urban_nav_core::readTextFile(calibration), calibration)) return T;
+  const std::string velodyne = findFile(folder, "calib_velo_to_cam.txt");
+  if (velodyne.empty()) return std::nullopt;
+  const urban_nav_core::Pose T_raw_lidar =
+      urban_nav_core::parseKittiVeloToCam(urban_nav_core::readTextFile(velodyne), velodyne);
+  const std::string cameras = findFile(folder, "calib_cam_to_cam.txt");
+  if (cameras.empty()) return T_raw_lidar;
+  const auto R = urban_nav_core::parseKittiRectification(urban_nav_core::readTextFile(cameras), cameras);
+  return R ? urban_nav_core::Pose(*R, urban_nav_core::Vector3d::Zero()) * T_raw_lidar : T_raw_lidar;
+}
+
 }  // namespace
 
 std::optional<KittiSweepLayout> findKittiSweeps(const std::string& folder) {
@@ -68,8 +83,8 @@ std::map<std::int64_t, std::string> listKittiSweeps(const KittiSweepLayout& layo
 }
 
 std::vector<std::pair<urban_nav_core::StampNs, std::string>> stampKittiSweeps(const KittiSweepLayout& layout,
-                                                                             double rate,
-                                                                             std::vector<std::string>& notes) {
+                                                                              double rate,
+                                                                              std::vector<std::string>& notes) {
   const std::map<std::int64_t, std::string> files = listKittiSweeps(layout);
   const KittiLayout places{layout.folder, layout.files, layout.files, urban_nav_core::KittiPair::Grey};
   const std::pair<std::int64_t, std::int64_t> numbers(files.begin()->first, files.rbegin()->first);
@@ -83,17 +98,11 @@ std::vector<std::pair<urban_nav_core::StampNs, std::string>> stampKittiSweeps(co
 }
 
 std::optional<urban_nav_core::Pose> readKittiLidar(const std::string& folder) {
-  const std::string calibration = (fs::path(folder) / "calib.txt").string();
-  if (fs::exists(calibration))
-    if (const auto T = urban_nav_core::parseKittiTr(urban_nav_core::readTextFile(calibration), calibration)) return T;
-  const std::string velodyne = findFile(folder, "calib_velo_to_cam.txt");
-  if (velodyne.empty()) return std::nullopt;
-  const urban_nav_core::Pose T_raw_lidar =
-      urban_nav_core::parseKittiVeloToCam(urban_nav_core::readTextFile(velodyne), velodyne);
-  const std::string cameras = findFile(folder, "calib_cam_to_cam.txt");
-  if (cameras.empty()) return T_raw_lidar;
-  const auto R = urban_nav_core::parseKittiRectification(urban_nav_core::readTextFile(cameras), cameras);
-  return R ? urban_nav_core::Pose(*R, urban_nav_core::Vector3d::Zero()) * T_raw_lidar : T_raw_lidar;
+  const std::optional<urban_nav_core::Pose> T_first_lidar = readFirstCameraLidar(folder);
+  const std::optional<KittiLayout> layout = findKittiLayout(folder);
+  if (!T_first_lidar || !layout) return T_first_lidar;
+  return urban_nav_core::Pose(urban_nav_core::Quaterniond::Identity(), readKittiOffset(folder, layout->pair)) *
+         *T_first_lidar;
 }
 
 KittiCloud::KittiCloud(const std::string& path, urban_nav_core::StampNs stamp) : stamp_(stamp) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <set>
 
+#include "recording/camera_topics.hpp"
 #include "recording/preset_topics.hpp"
 #include "recording/role_names.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -23,7 +24,7 @@ struct RoleNames {
   const char* word;
   const char* topic;  // of docs/architecture.md; null: none
 };
-constexpr std::array<RoleNames, 36> kRoles = {{{Role::Left, "left", topics::kLeftImage},
+constexpr std::array<RoleNames, 44> kRoles = {{{Role::Left, "left", topics::kLeftImage},
                                                {Role::Right, "right", topics::kRightImage},
                                                {Role::LeftInfo, "left_info", topics::kLeftInfo},
                                                {Role::RightInfo, "right_info", topics::kRightInfo},
@@ -49,6 +50,14 @@ constexpr std::array<RoleNames, 36> kRoles = {{{Role::Left, "left", topics::kLef
                                                {Role::Depth1Info, "depth1_info", nullptr},
                                                {Role::Depth2Info, "depth2_info", nullptr},
                                                {Role::Depth3Info, "depth3_info", nullptr},
+                                               {Role::Colour0, "colour0", nullptr},
+                                               {Role::Colour1, "colour1", nullptr},
+                                               {Role::Colour2, "colour2", nullptr},
+                                               {Role::Colour3, "colour3", nullptr},
+                                               {Role::Colour0Info, "colour0_info", nullptr},
+                                               {Role::Colour1Info, "colour1_info", nullptr},
+                                               {Role::Colour2Info, "colour2_info", nullptr},
+                                               {Role::Colour3Info, "colour3_info", nullptr},
                                                {Role::Panorama0, "panorama0", topics::kPanoramaImages[0]},
                                                {Role::Panorama1, "panorama1", topics::kPanoramaImages[1]},
                                                {Role::Panorama2, "panorama2", topics::kPanoramaImages[2]},
@@ -67,8 +76,6 @@ constexpr std::array<std::array<const char*, 2>, 7> kSides = {{{"left", "right"}
                                                                {"image_0", "image_1"},
                                                                {"infra1", "infra2"},
                                                                {"camera0", "camera1"}}};
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string bare(const std::string& topic) { return topic.empty() || topic.front() != '/' ? topic : topic.substr(1); }
 
@@ -186,20 +193,6 @@ void guessImages(const std::map<std::string, std::string>& available, BagTopics&
   if (!topics.find(Role::Right)) topics.chosen[Role::Right] = pair.second;
 }
 
-/// Finds camera_info in the namespace of the images, or one level above (.../image_raw/compressed).
-void guessInfo(const std::map<std::string, std::string>& available, Role image, Role info, BagTopics& topics) {
-  if (topics.find(info) || !topics.find(image)) return;
-  std::string folder = topics.find(image)->name;
-  while (folder.find('/') != std::string::npos) {
-    folder.resize(folder.rfind('/'));
-    const auto found = available.find(folder + "/camera_info");
-    if (found != available.end() && fits(info, found->second)) {
-      topics.chosen[info] = {found->first, found->second};
-      return;
-    }
-  }
-}
-
 /// If there is no camera_info in the namespaces of the images: uses the only two remaining ones, by their sides, else
 /// in the order of their names.
 void guessOtherInfos(const std::map<std::string, std::string>& available, BagTopics& topics) {
@@ -266,11 +259,6 @@ bool isDerived(const std::string& topic) {
   return std::any_of(parts.begin(), parts.end(), [](const std::string& part) { return kWords.count(part) > 0; });
 }
 
-bool isTaken(const BagTopics& topics, const std::string& topic) {
-  return std::any_of(topics.chosen.begin(), topics.chosen.end(),
-                     [&](const auto& chosen) { return chosen.second.name == topic; });
-}
-
 /// Assigns further topics to the roles not given by the user.
 void guessPoints(const std::map<std::string, std::string>& available, BagTopics& topics) {
   std::size_t lidar = 0;
@@ -295,35 +283,6 @@ void guessLasers(const std::map<std::string, std::string>& available, BagTopics&
     if (laser == kFurtherLasers) return;
     topics.chosen[laserRole(laser)] = std::move(scan);
   }
-}
-
-/// Returns the part of a topic's name before "depth" or "aligned_depth".
-std::string depthNamespace(const std::string& topic) {
-  return topic.substr(0, std::min(topic.find("depth"), topic.find("aligned_depth")));
-}
-
-/// Assigns one topic of depth images of each namespace that has any, and their camera_info.
-void guessDepth(const std::map<std::string, std::string>& available, BagTopics& topics) {
-  constexpr int kAligned = 2, kCompressed = 1;              // penalties
-  std::map<std::string, std::pair<int, ChosenTopic>> best;  // by namespace
-  for (const auto& [topic, type] : available) {
-    if (!isImageType(type) || !contains(topic, "depth") || isTaken(topics, topic) || contains(topic, "theora") ||
-        contains(topic, "disparity"))
-      continue;
-    const bool is_compressed = type == "sensor_msgs/CompressedImage";
-    if (is_compressed && !contains(topic, "compressedDepth")) continue;  // pictures of depths, by JPEG
-    const int penalty = (contains(topic, "aligned") ? kAligned : 0) + (is_compressed ? kCompressed : 0);
-    const auto found = best.emplace(depthNamespace(topic), std::make_pair(penalty, ChosenTopic{topic, type}));
-    if (penalty < found.first->second.first) found.first->second = {penalty, {topic, type}};
-  }
-  std::size_t camera = 0;
-  for (auto& [name, chosen] : best) {
-    while (camera < kDepthCameras && topics.find(depthRole(camera))) ++camera;
-    if (camera == kDepthCameras) break;
-    topics.chosen[depthRole(camera)] = std::move(chosen.second);
-  }
-  for (camera = 0; camera < kDepthCameras; ++camera)
-    guessInfo(available, depthRole(camera), depthInfoRole(camera), topics);
 }
 
 /// Adds one line per role; panoramas share one.
@@ -365,6 +324,10 @@ bool fits(Role role, const std::string& type) {
     case Role::Depth1:
     case Role::Depth2:
     case Role::Depth3:
+    case Role::Colour0:
+    case Role::Colour1:
+    case Role::Colour2:
+    case Role::Colour3:
     case Role::Panorama0:
     case Role::Panorama1:
     case Role::Panorama2:
@@ -376,6 +339,10 @@ bool fits(Role role, const std::string& type) {
     case Role::Depth1Info:
     case Role::Depth2Info:
     case Role::Depth3Info:
+    case Role::Colour0Info:
+    case Role::Colour1Info:
+    case Role::Colour2Info:
+    case Role::Colour3Info:
     case Role::Panorama0Info:
     case Role::Panorama1Info:
     case Role::Panorama2Info:
@@ -424,6 +391,12 @@ Role depthInfoRole(std::size_t camera) {
   return static_cast<Role>(static_cast<std::size_t>(Role::Depth0Info) + camera);
 }
 
+Role colourRole(std::size_t camera) { return static_cast<Role>(static_cast<std::size_t>(Role::Colour0) + camera); }
+
+Role colourInfoRole(std::size_t camera) {
+  return static_cast<Role>(static_cast<std::size_t>(Role::Colour0Info) + camera);
+}
+
 Role pointsRole(std::size_t lidar) { return static_cast<Role>(static_cast<std::size_t>(Role::Points0) + lidar); }
 
 std::vector<std::size_t> BagTopics::panorama() const {
@@ -460,6 +433,7 @@ BagTopics chooseTopics(const std::map<std::string, std::string>& available, cons
   guessOther(available, kRoles[9], {"gps", "fix", "gnss"}, topics);
   guessLasers(available, topics);
   guessDepth(others, topics);
+  guessColour(others, topics);
   guessPoints(available, topics);
   noteTopics(wished, presets, topics);
   if (topics.chosen.size() > wished.size())

@@ -37,6 +37,11 @@ FirstImage findFirstImage(Recording& recording, const ChosenTopic& topic) {
   return {image->header.frame_id, pixels.cols, pixels.rows};
 }
 
+std::string describeAssumedPlace(const std::string& camera_frame) {
+  return "no static tf from base_link to \"" + camera_frame +
+         "\": base_link is assumed at the left camera (REP-103 axes)";
+}
+
 CameraInfos readCameraInfos(Recording& recording, const BagTopics& topics, const std::string& name) {
   const auto left = findInfo(recording, topics, Role::LeftInfo), right = findInfo(recording, topics, Role::RightInfo);
   const std::vector<std::string> damage = recording.warnings();

@@ -16,6 +16,9 @@ struct FirstImage {
 };
 FirstImage findFirstImage(Recording& recording, const ChosenTopic& topic);
 
+/// Returns the note on a left camera of unknown extrinsics.
+std::string describeAssumedPlace(const std::string& camera_frame);
+
 /// The camera_info of a stereo pair.
 struct CameraInfos {
   urban_nav_core::CameraInfo left, right;

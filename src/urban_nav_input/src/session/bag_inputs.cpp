@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
+#include "recording/unused_topics.hpp"
 #include "urban_nav_core/types/error.hpp"
 
 namespace urban_nav_input {
@@ -34,12 +36,20 @@ std::vector<std::string> imageTopics(const BagTopics& topics) {
   return {topics.find(Role::Left)->name, topics.find(Role::Right)->name};
 }
 
-void addUsedTopics(const BagTopics& topics, const PlanarClouds& planar_clouds, const std::vector<std::string>& lidars,
-                   std::set<std::string>& used) {
+std::string describeUnused(Recording& recording, const BagTopics& topics, const PlanarClouds& planar_clouds,
+                           const UsedTopics& used) {
+  std::set<std::string> names(used.read.begin(), used.read.end());
+  names.insert(used.elsewhere.begin(), used.elsewhere.end());
   for (const auto& [role, topic] : topics.chosen)
     if (!isCloudType(topic.type) || planar_clouds.has(topic.name) ||
-        std::count(lidars.begin(), lidars.end(), topic.name) > 0)
-      used.insert(topic.name);
+        std::count(used.lidars.begin(), used.lidars.end(), topic.name) > 0)
+      names.insert(topic.name);
+  const auto leave = [&](Role role, bool is_of_use) {  // examined in any case
+    if (const auto topic = topics.find(role); topic && !is_of_use) names.erase(topic->name);
+  };
+  leave(Role::Wheels, used.motion.wheels);
+  leave(Role::Imu, used.has_imu_place || used.motion.gyroscope);
+  return describeUnusedTopics(recording, names);
 }
 
 urban_nav_core::MotionChoice chooseMotion(const BagTopics& topics, const std::string& motion_input,

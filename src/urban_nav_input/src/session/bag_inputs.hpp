@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <set>
 #include <string>
 #include <vector>
 
@@ -25,10 +24,18 @@ std::string describeNoImages(Recording& recording, const BagTopics& topics, cons
 /// Returns the topics of the stereo images. Requires both.
 std::vector<std::string> imageTopics(const BagTopics& topics);
 
-/// Adds the chosen topics that are read to `used`: all but clouds that are neither of a planar laser nor among
-/// `lidars`.
-void addUsedTopics(const BagTopics& topics, const PlanarClouds& planar_clouds, const std::vector<std::string>& lidars,
-                   std::set<std::string>& used);
+/// Topics of a recording that are used, apart from those with a role.
+struct UsedTopics {
+  std::vector<std::string> read;       ///< by the reader
+  std::vector<std::string> elsewhere;  ///< read by stages
+  std::vector<std::string> lidars;     ///< of 3D LiDARs that are used
+  urban_nav_core::MotionChoice motion;
+  bool has_imu_place;  ///< the axes of the IMU in base_link are known
+};
+
+/// Returns a sentence on the topics that are not used; empty if all are.
+std::string describeUnused(Recording& recording, const BagTopics& topics, const PlanarClouds& planar_clouds,
+                           const UsedTopics& used);
 
 /// Returns the motion sensors of `motion_input` that have a topic. Throws DataError naming the recording if an
 /// explicitly requested one is absent.

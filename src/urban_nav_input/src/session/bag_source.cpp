@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <set>
 #include <tuple>
 
 #include "recording/bag_groups.hpp"
 #include "recording/bag_order.hpp"
-#include "recording/unused_topics.hpp"
 #include "session/bag_calibration.hpp"
 #include "session/bag_cameras.hpp"
+#include "session/bag_colour.hpp"
+#include "session/bag_continuation.hpp"
 #include "session/bag_depth.hpp"
 #include "session/bag_images.hpp"
 #include "session/bag_inputs.hpp"
@@ -40,6 +40,7 @@ namespace frames = urban_nav_core::frames;
 using urban_nav_core::CameraInfo;
 using urban_nav_core::DataError;
 using urban_nav_core::UserError;
+using urban_nav_ros::RecordedImage;
 using urban_nav_ros::StereoFeed;
 
 namespace {
@@ -48,7 +49,7 @@ constexpr urban_nav_core::StampNs kMaxLateness = 200'000'000;  // ns, of message
 constexpr urban_nav_core::StampNs kLongestWait =
     1'000'000'000;  // ns, for a topic whose stamps are earlier than those of the images
 constexpr const char* kBagStateName = "reader of bags";
-constexpr std::uint32_t kBagStateVersion = 13;
+constexpr std::uint32_t kBagStateVersion = 14;
 constexpr urban_nav_core::StampNs kReceiptTolerance =
     25'000'000;                         // ns: images of a pair are received one after another
 constexpr std::size_t kMostSweeps = 4;  // waiting for a pair
@@ -95,6 +96,7 @@ class BagSource : public Source {
   std::vector<LaserInput> scans() const override { return scans_; }
   std::vector<SweepInput> sweeps() const override { return sweeps_; }
   std::vector<DepthInput> depths() const override { return depth_.pending(); }
+  std::vector<ColourInput> colours() const override { return colour_.pending(); }
   std::vector<urban_nav_ros::Panorama> panoramas() const override { return panoramas_; }
   std::vector<urban_nav_core::SpecificForce> forces() const override { return sensors_.forces(); }
   std::vector<Finding> sensorFindings() const override {
@@ -128,6 +130,7 @@ class BagSource : public Source {
     item.panoramas = std::exchange(panoramas_, {});
     item.sweeps = std::exchange(sweeps_, {});
     item.depths = depth_.take();
+    item.colours = colour_.take();
     return item;
   }
 
@@ -150,6 +153,7 @@ class BagSource : public Source {
       if (!infos.frame.empty()) camera_frame_ = infos.frame;
     }
     scaleBaseline(options_.baseline_scale, left_info, right_info);
+    left_info_ = left_info;
     noteDistortionModel(left_info, info_.notes);
     const std::string where = given
                                   ? options_.calibration
@@ -170,8 +174,7 @@ class BagSource : public Source {
       return;
     }
     info_.T_base_camera = urban_nav_ros::opticalInBody() * calibration_->T_optical_rectified();
-    info_.notes.push_back("no static tf from base_link to \"" + camera_frame_ +
-                          "\": base_link is assumed at the left camera (REP-103 axes)");
+    info_.notes.push_back(describeAssumedPlace(camera_frame_));
   }
 
   void place() {
@@ -202,6 +205,14 @@ class BagSource : public Source {
     if (options_.with_depth) depth_ = BagDepth(recording_, topics_, transforms);
     info_.depth_cameras = depth_.cameras();
     info_.notes.insert(info_.notes.end(), depth_.notes().begin(), depth_.notes().end());
+    if (options_.with_colour) colour_ = BagColour(recording_, topics_, transforms, leftCamera());
+    info_.colour_cameras = colour_.cameras();
+    info_.notes.insert(info_.notes.end(), colour_.notes().begin(), colour_.notes().end());
+  }
+
+  std::optional<LeftCamera> leftCamera() const {
+    if (!info_.has_images) return std::nullopt;
+    return LeftCamera{left_info_, info_.T_base_camera * calibration_->T_optical_rectified().inverse()};
   }
 
   void placeLasers(const urban_nav_ros::StaticTransforms& transforms) {
@@ -233,9 +244,8 @@ class BagSource : public Source {
     names_ = info_.has_images ? imageTopics(topics_) : std::vector<std::string>();
     for (const Role role : {Role::Imu, Role::Wheels, Role::Gps})
       if (topics_.find(role)) names_.push_back(topics_.find(role)->name);
-    names_.insert(names_.end(), laser_topics_.begin(), laser_topics_.end());
-    for (std::string& name : panorama_.topics()) names_.push_back(std::move(name));
-    for (std::string& name : sweeps_in_bag_.topics()) names_.push_back(std::move(name));
+    for (const auto& names : {laser_topics_, panorama_.topics(), sweeps_in_bag_.topics(), colour_.topics()})
+      names_.insert(names_.end(), names.begin(), names.end());
     for (const DepthCamera& camera : depth_.cameras()) names_.push_back(camera.topic);
   }
 
@@ -257,7 +267,9 @@ class BagSource : public Source {
     if (info_.has_images) feed_.emplace(feed, calibration_);
     moved_sweeps_.expect({kMaxLateness, kLongestWait, urban_nav_core::DeliveryOrder::Shuffled, motion_});
     listen();
-    noteUnused();
+    const UsedTopics used{names_, options_.read_elsewhere, sweeps_in_bag_.topics(), motion_, R_base_imu_.has_value()};
+    if (std::string sentence = describeUnused(recording_, topics_, planar_clouds_, used); !sentence.empty())
+      info_.notes.push_back(std::move(sentence));
     groups_ = groupBags(recording_);
     if (is_sorted_ && groups_.size() > 1) groups_ = asOneGroup(groups_);
     MessageSelection frames = recording_.select(leading, part_);
@@ -281,19 +293,6 @@ class BagSource : public Source {
     for (std::string& note : describeOrder(survey, is_sorted_)) info_.notes.push_back(std::move(note));
   }
 
-  void noteUnused() {
-    std::set<std::string> used(names_.begin(), names_.end());
-    used.insert(options_.read_elsewhere.begin(), options_.read_elsewhere.end());
-    addUsedTopics(topics_, planar_clouds_, sweeps_in_bag_.topics(), used);
-    const auto leave = [&](Role role, bool is_of_use) {  // examined in any case
-      if (const auto topic = topics_.find(role); topic && !is_of_use) used.erase(topic->name);
-    };
-    leave(Role::Wheels, motion_.wheels);
-    leave(Role::Imu, R_base_imu_ || motion_.gyroscope);
-    if (std::string sentence = describeUnusedTopics(recording_, used); !sentence.empty())
-      info_.notes.push_back(std::move(sentence));
-  }
-
   /// Opens the messages of the next group, if there is one.
   void readGroup() {
     messages_.reset();
@@ -311,7 +310,7 @@ class BagSource : public Source {
       bag_end_ = std::make_shared<BagEnd>(BagEnd{groups_[group_].end, groups_[group_].receipt,
                                                  urban_nav_core::seal(kBagStateName, kBagStateVersion, writer.take()),
                                                  std::exchange(scans_, {}), std::exchange(panoramas_, {}),
-                                                 std::exchange(sweeps_, {}), depth_.take()});
+                                                 std::exchange(sweeps_, {}), depth_.take(), colour_.take()});
     }
     if (++group_ < groups_.size()) {
       readGroup();
@@ -345,11 +344,12 @@ class BagSource : public Source {
         sensors_.addLaser(topic, place.first, place.second);
       }
     }
-    archive(panorama_, sweeps_in_bag_, moved_sweeps_, depth_, has_planar_laser);
+    archive(panorama_, sweeps_in_bag_, moved_sweeps_, depth_, colour_, has_planar_laser);
     archive.require(has_planar_laser == planar_laser_.has_value(), "a horizontal planar laser in all bags, or in none");
     if (planar_laser_) archive(*planar_laser_);
     info_.panorama = panorama_.cameras();
     info_.depth_cameras = depth_.cameras();
+    info_.colour_cameras = colour_.cameras();
     if (archive.isReading()) listen();
     archive(sensors_, *wheels_, *gyroscope_);
     if (feed_) archive(*feed_);
@@ -365,20 +365,14 @@ class BagSource : public Source {
                                    std::string("state of ") + kBagStateName);
     archive(reader);
     reader.finish();
-    const auto same = [](const auto& a, const auto& b) { return a.q().coeffs() == b.q().coeffs() && a.t() == b.t(); };
-    if ((info_.has_images && !isApprox(here.camera, info_.camera, 0.0)) ||
-        (is_placed_ && !same(here.T_base_camera, info_.T_base_camera)) || (R_base_imu && R_base_imu != R_base_imu_))
-      throw UserError(name_, "has a different calibration than the previous bags", "the same one");
-    for (const Role role : {Role::Left, Role::Right})
-      if (info_.has_images &&
-          (topics.find(role)->name != topics_.find(role)->name || topics.find(role)->type != topics_.find(role)->type))
-        throw UserError(name_, "has different topics than the previous bags", topics_.find(role)->name);
+    requireSameCameras(name_, {here, topics, is_placed_}, {info_, topics_, true});
+    if (R_base_imu && R_base_imu != R_base_imu_) throw differentCalibration(name_);
     while (group_ < groups_.size() && groups_[group_].end <= after.bags) ++group_;
     const std::size_t begun = group_ == 0 ? 0 : groups_[group_ - 1].end;
     if (begun != after.bags) throw UserError(name_, "is not the last bag of those recorded at the same time", "");
     if (after.bags == 0) info_.frames = 0;  // the number in the bags before is unknown
-    if (info_.has_images && !is_placed_ && !same(here.T_base_camera, info_.T_base_camera))
-      info_.notes.pop_back();  // the bags have the extrinsics
+    if (info_.has_images && !is_placed_ && !isSamePose(here.T_base_camera, info_.T_base_camera))
+      info_.notes.erase(std::find(info_.notes.begin(), info_.notes.end(), describeAssumedPlace(camera_frame_)));
     info_.inputs = describeInputs(recording_, topics_, sweeps_in_bag_.streams());
   }
 
@@ -392,13 +386,9 @@ class BagSource : public Source {
                (topic == topics_.find(Role::Left)->name || topic == topics_.find(Role::Right)->name)) {
       const urban_nav_ros::Side side =
           topic == topics_.find(Role::Left)->name ? urban_nav_ros::Side::Left : urban_nav_ros::Side::Right;
-      if (const auto image = instance.as<sensor_msgs::Image>()) {
-        setStamp(side, instance, image->header);
-        feed_->add(side, sensor_msgs::ImageConstPtr(image));
-      } else if (const auto compressed = instance.as<sensor_msgs::CompressedImage>()) {
-        setStamp(side, instance, compressed->header);
-        feed_->add(side, sensor_msgs::CompressedImageConstPtr(compressed));
-      }
+      if (const auto image = instance.as<sensor_msgs::Image>()) addImage(side, instance, image);
+      else if (const auto compressed = instance.as<sensor_msgs::CompressedImage>())
+        addImage(side, instance, compressed);
     } else if (const auto odometry = instance.as<nav_msgs::Odometry>()) {
       if (!sensors_.add(*odometry, topic, instance.receipt()) || !motion_.wheels) return;
       if (const auto motion = wheels_->add(*odometry)) add(*motion);
@@ -409,9 +399,17 @@ class BagSource : public Source {
       add(instance, *scan);
     } else if (const auto fix = instance.as<sensor_msgs::NavSatFix>()) {
       sensors_.add(*fix, topic, instance.receipt());
-    } else if (!depth_.add(instance) && panorama_.add(instance)) {
+    } else if (!depth_.add(instance) && !colour_.add(instance) && panorama_.add(instance)) {
       takePanoramas();
     }
+  }
+
+  template <typename MessagePtr>
+  void addImage(urban_nav_ros::Side side, const RecordedMessage& instance, const MessagePtr& image) {
+    setStamp(side, instance, image->header);
+    using ConstPtr = boost::shared_ptr<const typename MessagePtr::element_type>;
+    feed_->add(side, ConstPtr(image));
+    if (side == urban_nav_ros::Side::Left) colour_.addLeft(RecordedImage(ConstPtr(image)));
   }
 
   /// Corrects known errors of the stamp of an image.
@@ -472,6 +470,8 @@ class BagSource : public Source {
   std::vector<urban_nav_ros::Panorama> panoramas_;  // since the previous pair or end of a bag
   BagSweeps sweeps_in_bag_;
   BagDepth depth_;
+  BagColour colour_;
+  CameraInfo left_info_;                     // with images
   std::optional<PlanarLaser> planar_laser_;  // read as sweeps
   MovedSweeps moved_sweeps_;
   std::vector<SweepInput> sweeps_;  // since the previous item or end of a bag

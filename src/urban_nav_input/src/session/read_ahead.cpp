@@ -76,6 +76,11 @@ class ReadAhead : public Source {
     return ended_ ? source_->depths() : std::vector<DepthInput>();
   }
 
+  std::vector<ColourInput> colours() const override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return ended_ ? source_->colours() : std::vector<ColourInput>();
+  }
+
   std::vector<SweepInput> sweeps() const override {
     const std::lock_guard<std::mutex> lock(mutex_);
     return ended_ ? source_->sweeps() : std::vector<SweepInput>();

@@ -44,6 +44,9 @@ GreyImage toColour(const sensor_msgs::CompressedImage& message);
 /// Returns 8-bit colours by one scale for several images.
 GreyImage toColour(const sensor_msgs::CompressedImage& message, const GreyScale& scale);
 
+/// Returns whether a compressed image can be decoded and has three channels or a Bayer mosaic.
+bool hasColour(const sensor_msgs::CompressedImage& message);
+
 /// Converts 16-bit pixels of any number of channels to 8 bits.
 cv::Mat toEightBits(const cv::Mat& deep, const GreyScale& scale);
 

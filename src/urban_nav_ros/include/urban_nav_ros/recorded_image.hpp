@@ -35,6 +35,9 @@ class RecordedImage {
   urban_nav_core::StampNs stamp() const;
   std::string frame() const;
 
+  /// Returns the message of a compressed image; null for other images.
+  const sensor_msgs::CompressedImageConstPtr& compressed() const { return compressed_; }
+
   /// Adds the image to a range of 16-bit pixels; no effect for other images.
   void addTo(GreyRange& range) const;
   /// Sets the scale of 16-bit pixels, common to all compared images; without it each image has its own.
@@ -44,6 +47,8 @@ class RecordedImage {
   GreyImage grey() const;
   /// Decodes to colour; grey images have three equal channels.
   ColourImage colour() const;
+  /// Returns whether the pixels have colour: by the encoding of a raw image, by the channels of a compressed one.
+  bool hasColour() const;
 
   /// Returns the image as JPEG: the original bytes if it is one, otherwise encoded in colour with quality 92. Empty if
   /// it cannot be decoded.

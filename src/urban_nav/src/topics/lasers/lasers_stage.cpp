@@ -20,7 +20,9 @@ class LasersStage final : public Stage {
   explicit LasersStage(SharedCalibrations along_odometry) : along_odometry_(std::move(along_odometry)) {}
 
   Description describe() const override {
-    return {"lasers", "laser_mapper", true, false, false, {"map#.ply", "quality#.csv"}};
+    Description description{"lasers", "laser_mapper", true, false, false, {"map#.ply", "quality#.csv"}};
+    description.uses_colour = true;
+    return description;
   }
   void addTables(ParameterSet& parameters) const override { parameters.add(laser_mapper::table()); }
   Selection select(const MapOptions& options) const override {

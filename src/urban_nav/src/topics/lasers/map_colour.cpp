@@ -39,25 +39,32 @@ struct SessionViews {
   std::vector<urban_nav_registration::PanoramaKey> images;
 };
 
-/// Adds the views of a session with their stated extrinsics and `correction`.
+/// The views to add.
+enum class ViewKind { Panoramas, All };
+
+/// Adds the views of a session with their stated extrinsics, those of its panoramic head with `correction`.
 void addViews(urban_nav_store::Store& store, const MappedSession& session, const PanoramaCorrection& correction,
-              SessionViews& made) {
+              ViewKind kind, SessionViews& made) {
   std::map<std::int64_t, StoredPanoramaCamera> cameras;
-  TableStore<StoredPanoramaCamera>(store).forEach(session.id,
-                                                  [&](const StoredPanoramaCamera& row) { cameras[row.camera] = row; });
+  TableStore<StoredPanoramaCamera>(store).forEach(session.id, [&](const StoredPanoramaCamera& row) {
+    if (kind == ViewKind::All || row.camera < StoredPanoramaCamera::kFirstColour) cameras[row.camera] = row;
+  });
   std::optional<Pose> last;
   std::int64_t last_camera = -1;
   TableStore<StoredPanorama>(store).forEach(session.id, [&](const StoredPanorama& row) {
     const auto camera = cameras.find(row.camera);
-    const auto T_map_base = session.T_map_base->at(row.stamp - correction.delay, kLongestViewGap);
-    if (camera == cameras.end() || !T_map_base) return;
+    if (camera == cameras.end()) return;
+    const PanoramaCorrection corrected =
+        row.camera < StoredPanoramaCamera::kFirstColour ? correction : PanoramaCorrection();
+    const auto T_map_base = session.T_map_base->at(row.stamp - corrected.delay, kLongestViewGap);
+    if (!T_map_base) return;
     if (row.camera == last_camera && last && distanceBetween(*last, *T_map_base) < kViewDistance &&
         angleBetween(*last, *T_map_base) < kViewAngle)
       return;
     last = T_map_base;
     last_camera = row.camera;
     made.views.push_back({urban_nav_registration::storedRawCamera(camera->second),
-                          correction.T_correction * camera->second.T_base_camera, row.stamp, made.images.size()});
+                          corrected.T_correction * camera->second.T_base_camera, row.stamp, made.images.size()});
     made.T_map_base.push_back(*T_map_base);
     made.images.push_back({session.id, row.camera, row.stamp});
   });
@@ -88,6 +95,7 @@ std::string digestColours(urban_nav_store::Store& store, const std::vector<Mappe
     for (const double value : {pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy})
       urban_nav_store::appendNumber(bytes, value);
     for (const double value : view.camera.distortion.coefficients()) urban_nav_store::appendNumber(bytes, value);
+    if (view.camera.distortion.isEquidistant()) urban_nav_store::appendText(bytes, "equidistant");
     for (const Pose& pose : {made.T_map_base[i], view.T_base_camera}) {
       for (int k = 0; k < 3; ++k) urban_nav_store::appendNumber(bytes, pose.t()(k));
       for (int k = 0; k < 4; ++k) urban_nav_store::appendNumber(bytes, pose.q().coeffs()(k));
@@ -103,8 +111,9 @@ std::unique_ptr<laser_mapper::Colouriser> makeColouriser(urban_nav_store::Store&
     const laser_mapper::MountedView& view = made.views[i];
     views.push_back({view.camera, made.T_map_base[i] * view.T_base_camera, view.stamp, view.image});
   }
-  const urban_nav_core::Pinhole& pinhole = made.views.front().camera.pinhole;
-  const double image_mb = std::max(0.1, 3e-6 * pinhole.width * pinhole.height);
+  double image_mb = 0.1;
+  for (const laser_mapper::MountedView& view : made.views)
+    image_mb = std::max(image_mb, 3e-6 * view.camera.pinhole.width * view.camera.pinhole.height);
   const auto load = [&store, images = made.images](std::size_t image) {
     return urban_nav_registration::loadPanorama(store, images[image]);
   };
@@ -152,7 +161,7 @@ MapColours::MapColours(urban_nav_store::Store& store, const laser_mapper::LaserM
     : store_(store), sessions_(sessions), keep_(keep) {
   SessionViews made;
   for (const MappedSession& session : sessions)
-    addViews(store, session, urban_nav_registration::panoramaCorrection(store, session.id), made);
+    addViews(store, session, urban_nav_registration::panoramaCorrection(store, session.id), ViewKind::All, made);
   views_ = made.views.size();
   if (views_ == 0) return;
   const double voxel = map.parameters().voxel;
@@ -208,7 +217,7 @@ std::optional<laser_mapper::ViewCalibration> calibratePanoramas(urban_nav_store:
                                                                 const urban_nav_core::OdometryChain& odometry,
                                                                 const laser_mapper::LaserMap& map) {
   SessionViews made;
-  addViews(store, session, {}, made);
+  addViews(store, session, {}, ViewKind::Panoramas, made);
   if (made.views.empty()) return std::nullopt;
   laser_mapper::ViewCalibrator calibrator(made.views, *session.T_map_base, &odometry, map.parameters().voxel,
                                           map.parameters().range_bias);

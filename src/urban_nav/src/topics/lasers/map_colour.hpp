@@ -15,8 +15,9 @@ namespace urban_nav {
 
 constexpr double kViewDistance = 0.7, kViewAngle = 0.26;  ///< m, rad: between views of one camera
 
-/// Colours of the points of a map from stored panoramas of its sessions, about 0.7 m or 15 deg apart. They are computed
-/// once and kept in the store, until chunks, poses or panoramas differ. Not thread-safe.
+/// Colours of the points of a map from stored images of its sessions (panoramas, other cameras with colour), about 0.7
+/// m or 15 deg apart. They are computed once and kept in the store, until chunks, poses or images differ. Not
+/// thread-safe.
 class MapColours {
  public:
   /// Reads or prepares the colours of a rendered map, which requires two passes over its tiles if they are not stored.
@@ -26,7 +27,7 @@ class MapColours {
              const std::vector<laser_mapper::MappedSession>& sessions, double memory_mb, bool keep);
   ~MapColours();
 
-  /// Returns the number of images; 0: there are no panoramas within the time of the trajectories.
+  /// Returns the number of images; 0: no image is within the time of the trajectories.
   std::size_t views() const { return views_; }
   /// Returns whether colours are computed from images, which takes longer than all else of an export.
   bool areComputed() const { return colouriser_ != nullptr; }

@@ -8,11 +8,13 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/parameters.hpp"
 #include "commands/stages.hpp"
 #include "map/map_pipeline.hpp"
+#include "urban_nav_core/io/cloud/cloud_columns.hpp"
 #include "urban_nav_core/io/cloud/cloud_file.hpp"
 #include "urban_nav_core/io/tum.hpp"
 #include "urban_nav_core/types/error.hpp"
@@ -120,6 +122,51 @@ void addDepth(const std::string& path) {
   }
 }
 
+constexpr int kColourWidth = 80, kColourHeight = 60;
+constexpr double kColourFocal = 40.0;  // px
+
+/// Colour of the wall at a point: red ahead, green at the back, blue at the sides, grey of the box.
+std::array<std::uint8_t, 3> wallColour(const Vector3d& p) {
+  if (std::abs(p.x() - 6.0) < 1e-6) return {200, 30, 30};
+  if (std::abs(p.x() + 6.0) < 1e-6) return {30, 200, 30};
+  if (std::abs(std::abs(p.y()) - 4.5) < 1e-6) return {30, 30, 200};
+  return {120, 120, 120};
+}
+
+/// Adds five colour images a second of a camera that faces the left, to the recording of writeRoom().
+void addColour(const std::string& path) {
+  const Pose mounting(urban_nav_core::Quaterniond(Eigen::AngleAxisd(0.8, Vector3d::UnitZ())) * kDepthCamera.q(),
+                      {0.1, 0.2, 0.5});
+  rosbag::Bag bag(path, rosbag::bagmode::Append);
+  tf2_msgs::TFMessage places;
+  places.transforms.push_back(urban_nav_ros::toStaticTransform("base_link", "colour_optical", mounting));
+  bag.write("/tf_static", ros::Time(kRoomStart), places);
+  sensor_msgs::CameraInfo info;
+  info.width = kColourWidth;
+  info.height = kColourHeight;
+  info.K = {kColourFocal, 0, 39.5, 0, kColourFocal, 29.5, 0, 0, 1};
+  for (int i = 0; i < kTurns; i += 2) {
+    const double t = kTurnPeriod * (i + 0.7);
+    const Pose T = robotAt(t) * mounting;
+    sensor_msgs::Image image;
+    image.header.stamp = ros::Time(kRoomStart + t);
+    image.header.frame_id = "colour_optical";
+    image.encoding = "rgb8";
+    image.width = kColourWidth;
+    image.height = kColourHeight;
+    image.step = 3 * kColourWidth;
+    for (int v = 0; v < kColourHeight; ++v)
+      for (int u = 0; u < kColourWidth; ++u) {
+        const Vector3d ray = T.q() * Vector3d((u - 39.5) / kColourFocal, (v - 29.5) / kColourFocal, 1.0).normalized();
+        const auto colour = wallColour(T.t() + rangeInRoom(T.t(), ray) * ray);
+        image.data.insert(image.data.end(), colour.begin(), colour.end());
+      }
+    info.header.stamp = image.header.stamp;
+    bag.write("/front/color/image_raw", image.header.stamp, image);
+    bag.write("/front/color/camera_info", image.header.stamp, info);
+  }
+}
+
 /// Distance of a point to the walls of the room and of the box.
 double distanceToWalls(const Vector3d& p) {
   const double room = std::min(std::abs(std::abs(p.x()) - 6.0), std::abs(std::abs(p.y()) - 4.5));
@@ -180,6 +227,38 @@ TEST(PlanarMap, ADepthCameraAddsItsSurfaces) {
   const std::string summary = readFile(folder.file("out/summary.json"));
   EXPECT_NE(summary.find("\"role\": \"depth0\""), std::string::npos);
   EXPECT_NE(summary.find("\"depth0\":"), std::string::npos) << "points_by_sensor";
+
+  mapRoom(bag, folder.file("two"), 2, {});
+  EXPECT_EQ(readFile(folder.file("two/map.ply")), readFile(map));
+}
+
+TEST(PlanarMap, ACameraColoursThePointsThatItShows) {
+  const TemporaryFolder folder;
+  const std::string bag = writeRoom(folder, Pose(urban_nav_core::expSo3({0.0, 0.0, 0.4}), {0.2, 0.05, 0.3}));
+  addColour(bag);
+  mapRoom(bag, folder.file("out"), 1, {});
+  const std::string map = folder.file("out/map.ply");
+  const urban_nav_core::NumberColumns columns =
+      urban_nav_core::readCloudColumns(map, {"x", "y", "z", "red", "blue", "coloured"});
+  for (const auto& column : columns) ASSERT_TRUE(column.has_value());
+  const urban_nav_core::Trajectory trajectory = urban_nav_core::readTum(folder.file("out/trajectory.tum"));
+  const Pose T_room_map = robotAt(1e-9 * static_cast<double>(trajectory[0].stamp) - kRoomStart);
+  std::size_t red = 0, blue = 0, wrong = 0;
+  for (std::size_t i = 0; i < columns[0]->size(); ++i) {
+    const auto value = [&](std::size_t column) { return (*columns[column])[i]; };
+    if (value(5) == 0.0) continue;
+    const Vector3d p = T_room_map * Vector3d(value(0), value(1), value(2));
+    const bool is_ahead = std::abs(p.x() - 6.0) < 0.1 && std::abs(p.y()) < 4.2;
+    const bool is_side = std::abs(std::abs(p.y()) - 4.5) < 0.1 && std::abs(p.x()) < 5.7;
+    const bool is_red = value(3) > 2.0 * value(4), is_blue = value(4) > 2.0 * value(3);
+    red += is_ahead && is_red ? 1 : 0;
+    blue += is_side && is_blue ? 1 : 0;
+    wrong += (is_ahead && !is_red) || (is_side && !is_blue) ? 1 : 0;
+  }
+  EXPECT_GT(red, 100U);
+  EXPECT_GT(blue, 100U);
+  EXPECT_LT(wrong, (red + blue) / 100);
+  EXPECT_NE(readFile(folder.file("out/summary.json")).find("\"role\": \"colour0\""), std::string::npos);
 
   mapRoom(bag, folder.file("two"), 2, {});
   EXPECT_EQ(readFile(folder.file("two/map.ply")), readFile(map));

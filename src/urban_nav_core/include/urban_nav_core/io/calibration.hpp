@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,9 @@ enum class KittiPair { Grey, Colour };
 StereoCamera readKittiCalibration(const std::string& path, int width, int height, KittiPair pair = KittiPair::Grey);
 StereoCamera parseKittiCalibration(std::string_view text, const std::string& name, int width, int height,
                                    KittiPair pair = KittiPair::Grey);
+/// Returns the position of camera 0 (m) in the frame of the left camera of a pair, both rectified; nullopt without its
+/// row.
+std::optional<Vector3d> parseKittiOffset(std::string_view text, const std::string& name, KittiPair pair);
 /// Returns the content of calib.txt, P0 and P1; focal lengths and centre are read back exactly.
 std::string printKittiCalibration(const StereoCamera& camera);
 

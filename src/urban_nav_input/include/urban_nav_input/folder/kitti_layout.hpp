@@ -31,6 +31,12 @@ std::map<std::int64_t, std::string> listFrames(const std::string& folder);
 /// line for a missing or invalid row.
 urban_nav_core::StereoCamera readKittiCamera(const KittiLayout& layout, int width, int height);
 
+/// Returns the calibration file of a folder, as for readKittiCamera(); empty without one.
+std::string findKittiCalibration(const std::string& folder);
+
+/// Returns the position of camera 0 (m) in the frame of the rectified left camera of a pair; zero without a row of it.
+urban_nav_core::Vector3d readKittiOffset(const std::string& folder, urban_nav_core::KittiPair pair);
+
 /// Stamps of frames 0, 1 ... from times.txt (s) or timestamps.txt of KITTI raw (date and time); empty without either.
 struct KittiTimes {
   std::string path;

@@ -31,12 +31,12 @@ std::map<std::int64_t, std::string> listKittiSweeps(const KittiSweepLayout& layo
 /// Returns their stamps, as those of images (stampKittiFrames()), and files, in order of time. Throws UserError for
 /// invalid stamps.
 std::vector<std::pair<urban_nav_core::StampNs, std::string>> stampKittiSweeps(const KittiSweepLayout& layout,
-                                                                             double rate,
-                                                                             std::vector<std::string>& notes);
+                                                                              double rate,
+                                                                              std::vector<std::string>& notes);
 
-/// Returns T_camera_lidar of the rectified left camera: the row `Tr` of calib.txt, else calib_velo_to_cam.txt with the
-/// rectification of calib_cam_to_cam.txt, in the folder or above it; nullopt without either. Throws UserError for
-/// invalid rows.
+/// Returns T_camera_lidar of the rectified left camera of the pair that is used: the row `Tr` of calib.txt, else
+/// calib_velo_to_cam.txt with the rectification of calib_cam_to_cam.txt, in the folder or above it, which are of camera
+/// 0, and the offset of a colour pair; nullopt without either. Throws UserError for invalid rows.
 std::optional<urban_nav_core::Pose> readKittiLidar(const std::string& folder);
 
 /// The points of a file: little-endian float32 x, y, z (m; at the LiDAR, x forward, y left, z up) and reflectance,

@@ -38,6 +38,14 @@ enum class Role {
   Depth1Info,
   Depth2Info,
   Depth3Info,
+  Colour0,
+  Colour1,
+  Colour2,
+  Colour3,
+  Colour0Info,
+  Colour1Info,
+  Colour2Info,
+  Colour3Info,
   Panorama0,
   Panorama1,
   Panorama2,
@@ -69,6 +77,11 @@ constexpr std::size_t kDepthCameras = 4;
 Role depthRole(std::size_t camera);
 Role depthInfoRole(std::size_t camera);
 
+constexpr std::size_t kColourCameras = 4;
+/// Return the roles of a camera that colours the map, 0 ... kColourCameras - 1.
+Role colourRole(std::size_t camera);
+Role colourInfoRole(std::size_t camera);
+
 /// Topic of a bag that is read for a role.
 struct ChosenTopic {
   std::string name;
@@ -91,7 +104,9 @@ struct BagTopics {
 /// "camera" or "cam" with a number. 3D LiDARs are the topics of clouds whose names are not those of computed clouds (a
 /// map, clusters, depth images), in the order of their names. Further planar lasers are the other topics of scans whose
 /// names are not those of computed ones: "scan" first, then in the order of their names. A depth camera is a namespace
-/// with images named "depth": those not aligned to another camera first, raw before compressed ones. A wish
+/// with images named "depth": those not aligned to another camera first, raw before compressed ones. Cameras that
+/// colour the map are the remaining images with a camera_info in their namespace and no name of computed images, one
+/// topic of each namespace: those named after colours first. A wish
 /// `preset:=NAME` takes the topics of a driver (driver_presets.hpp) for the roles that no other wish names. Throws
 /// UserError for an unknown role or preset in `wishes`, or a topic that is missing or of another type. Roles without a
 /// suitable topic are absent.

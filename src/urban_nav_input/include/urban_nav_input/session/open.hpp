@@ -46,6 +46,8 @@ struct SourceOptions {
   bool with_planar_sweeps = false;
   /// Whether the images of depth cameras are read.
   bool with_depth = false;
+  /// Whether the images of cameras that colour the map are read.
+  bool with_colour = false;
   SessionRule sessions = SessionRule::Auto;  ///< as input.sessions
 };
 /// Format of an input.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "urban_nav_core/camera/camera_info.hpp"
+#include "urban_nav_core/camera/raw_camera.hpp"
 #include "urban_nav_core/camera/stereo_camera.hpp"
 #include "urban_nav_core/geometry/se3.hpp"
 #include "urban_nav_core/laser/cloud/point_times.hpp"
@@ -20,6 +21,7 @@
 #include "urban_nav_input/examination/finding.hpp"
 #include "urban_nav_input/sensors/sight.hpp"
 #include "urban_nav_ros/panorama_feed.hpp"
+#include "urban_nav_ros/recorded_image.hpp"
 #include "urban_nav_ros/stereo_feed.hpp"
 
 namespace urban_nav_input {
@@ -49,6 +51,13 @@ struct DepthInput {
   sensor_msgs::CompressedImageConstPtr compressed;
 };
 
+/// An image of one of the cameras that colour the map, not decoded.
+struct ColourInput {
+  std::size_t camera = 0;  ///< index in SourceInfo::colour_cameras
+  urban_nav_core::StampNs stamp = 0;
+  urban_nav_ros::RecordedImage image;
+};
+
 /// State of the reader of a recording at the end of a bag, which the next bag may follow.
 struct BagEnd {
   std::size_t bags = 0;                 ///< number of paths that have been read
@@ -56,13 +65,14 @@ struct BagEnd {
   std::string reader;                   ///< packed state: pending inputs and statistics
   std::vector<LaserInput> scans;        ///< read after the previous pair, up to here
   std::vector<urban_nav_ros::Panorama>
-      panoramas;                   ///< completed after the previous pair, up to here; in order of stamps
-  std::vector<SweepInput> sweeps;  ///< read after the previous item, up to here; in order of reference
-  std::vector<DepthInput> depths;  ///< read after the previous item, up to here; in the order of the reader
+      panoramas;                     ///< completed after the previous pair, up to here; in order of stamps
+  std::vector<SweepInput> sweeps;    ///< read after the previous item, up to here; in order of reference
+  std::vector<DepthInput> depths;    ///< read after the previous item, up to here; in the order of the reader
+  std::vector<ColourInput> colours;  ///< read after the previous item, up to here; in the order of the reader
 };
 
 /// An item of a Source: a decoded pair, and other data recorded since the previous one. Without a pair, only `bag_end`,
-/// `scans`, `panoramas`, `sweeps` and `depths` are set.
+/// `scans`, `panoramas`, `sweeps`, `depths` and `colours` are set.
 struct SourceItem : urban_nav_ros::DecodedPair {
   SourceItem() = default;
   SourceItem(urban_nav_ros::DecodedPair pair) : DecodedPair(std::move(pair)) {}
@@ -78,6 +88,9 @@ struct SourceItem : urban_nav_ros::DecodedPair {
   /// Read since the previous item, or since the end of that bag; in the order of the reader. Only with
   /// SourceOptions::with_depth.
   std::vector<DepthInput> depths;
+  /// Read since the previous item, or since the end of that bag; in the order of the reader. Only with
+  /// SourceOptions::with_colour.
+  std::vector<ColourInput> colours;
   /// Whether this is a stereo pair, complete or not. Only sources with sweeps return items without a pair: in sessions
   /// without images, and in gaps of the images.
   bool has_pair = true;
@@ -119,6 +132,14 @@ struct DepthCamera {
   urban_nav_core::Pinhole pinhole;
 };
 
+/// Camera that colours the map, other than a panoramic head.
+struct ColourCamera {
+  std::string role;                    ///< "colour0"; "left": the left camera of the stereo pair
+  std::string topic, frame;            ///< of its images
+  urban_nav_core::Pose T_base_camera;  ///< of the optical frame of its images
+  urban_nav_core::RawCamera camera;
+};
+
 /// Properties of an input, available before its first image is decoded.
 struct SourceInfo {
   std::string name;                             ///< as given by the user
@@ -130,9 +151,10 @@ struct SourceInfo {
   urban_nav_core::StampNs first = 0, last = 0;  ///< of these frames, if known
   std::vector<LaserInfo> lasers;                ///< with known extrinsics
   std::string planar_role;  ///< role of the horizontal planar laser whose scans are also sweeps; empty: none
-  std::vector<DepthCamera> depth_cameras;  ///< that are used; with SourceOptions::with_depth
-  std::vector<PanoramaCamera> panorama;    ///< cameras with images, ascending by number; empty: no panoramas
-  std::vector<InputStream> inputs;         ///< by role
+  std::vector<DepthCamera> depth_cameras;    ///< that are used; with SourceOptions::with_depth
+  std::vector<ColourCamera> colour_cameras;  ///< that are used; with SourceOptions::with_colour
+  std::vector<PanoramaCamera> panorama;      ///< cameras with images, ascending by number; empty: no panoramas
+  std::vector<InputStream> inputs;           ///< by role
   std::vector<std::pair<std::string, std::string>> topics = {};  ///< role and topic of the stereo camera; of recordings
   std::optional<urban_nav_core::StampNs> right_delay = {};       ///< ns, as input.right_delay; of recordings
   std::vector<std::string> notes;                                ///< guesses and assumptions, for the user
@@ -164,6 +186,8 @@ class Source {
   virtual std::vector<SweepInput> sweeps() const { return {}; }
   /// Returns depth images after the last item and end of a bag. Valid after next() has returned nullopt.
   virtual std::vector<DepthInput> depths() const { return {}; }
+  /// Returns images for colours after the last item and end of a bag. Valid after next() has returned nullopt.
+  virtual std::vector<ColourInput> colours() const { return {}; }
   /// Returns panoramas after the last pair and end of a bag. Valid after next() has returned nullopt.
   virtual std::vector<urban_nav_ros::Panorama> panoramas() const { return {}; }
   /// Returns the specific forces of the accelerometer; complete after next() has returned nullopt. Empty without an

@@ -12,7 +12,6 @@ namespace urban_nav_input {
 
 using rosbag1::findNumber;
 using rosbag1::findText;
-using rosbag1::Op;
 using rosbag1::Record;
 using rosbag1::RecordWalk;
 using urban_nav_core::StampNs;
@@ -30,15 +29,17 @@ class BagIndex {
 
   std::optional<BagScan> read() {
     const std::optional<Record> header = RecordWalk(file_, rosbag1::kMagic.size()).next();
-    if (!header || header->op != Op::BagHeader || !findText(header->header, "encryptor").empty()) return std::nullopt;
+    if (!header || header->op != rosbag1::Op::BagHeader || !findText(header->header, "encryptor").empty())
+      return std::nullopt;
     const std::uint64_t index = findNumber<std::uint64_t>(header->header, "index_pos").value_or(0);
     const std::optional<std::uint32_t> connections = findNumber<std::uint32_t>(header->header, "conn_count");
     const std::optional<std::uint32_t> chunks = findNumber<std::uint32_t>(header->header, "chunk_count");
     if (index == 0 || index > file_.size || !connections || !chunks || *chunks >= kNoChunk) return std::nullopt;
     RecordWalk walk(file_, index);
     while (const std::optional<Record> record = walk.next()) {
-      const bool is_good =
-          record->op == Op::Connection ? addConnection(*record) : record->op == Op::ChunkInfo && addChunk(*record);
+      const bool is_good = record->op == rosbag1::Op::Connection
+                               ? addConnection(*record)
+                               : record->op == rosbag1::Op::ChunkInfo && addChunk(*record);
       if (!is_good) return std::nullopt;
     }
     const bool is_whole = walk.at() == file_.size && found_.size() == *connections && scan_.chunks.size() == *chunks;
@@ -59,7 +60,7 @@ class BagIndex {
     if (findNumber<std::uint32_t>(info.header, "ver") != kVersion) return false;
     RecordWalk walk(file_, *begin);
     const std::optional<Record> record = walk.next();
-    if (!record || record->op != Op::Chunk) return false;
+    if (!record || record->op != rosbag1::Op::Chunk) return false;
     std::optional<McapChunk> chunk = readChunk(*record);
     if (!chunk) return false;
     std::size_t indexes = 0, expected = 0;
@@ -71,7 +72,7 @@ class BagIndex {
     std::size_t messages = 0;
     for (std::size_t i = 0; i < indexes; ++i) {
       const std::optional<Record> index = walk.next();
-      if (!index || index->op != Op::Index || !addEntries(*index, chunk->chunk.size, messages)) return false;
+      if (!index || index->op != rosbag1::Op::Index || !addEntries(*index, chunk->chunk.size, messages)) return false;
     }
     scan_.chunks.push_back(std::move(*chunk));
     scan_.messages += messages;

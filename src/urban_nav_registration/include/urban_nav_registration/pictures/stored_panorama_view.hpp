@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+
 #include "urban_nav_core/camera/raw_camera.hpp"
 #include "urban_nav_registration/pictures/picture.hpp"
 #include "urban_nav_store/table_store.hpp"
@@ -13,11 +15,25 @@ namespace urban_nav_registration {
 inline urban_nav_core::RawCamera storedRawCamera(const urban_nav_store::StoredPanoramaCamera& row) {
   urban_nav_core::RawCamera camera;
   camera.pinhole = {row.fx, row.fy, row.cx, row.cy, static_cast<int>(row.width), static_cast<int>(row.height)};
-  camera.distortion = urban_nav_core::Distortion(row.distortion);
+  const std::array<double, 8>& k = row.distortion;
+  camera.distortion = row.is_equidistant ? urban_nav_core::Distortion::equidistant({k[0], k[1], k[2], k[3]})
+                                         : urban_nav_core::Distortion(k);
   return camera;
 }
 
-/// Key of an image of the panoramic head in the store.
+/// Sets size, pinhole and distortion of a row of the store.
+inline void setRawCamera(const urban_nav_core::RawCamera& camera, urban_nav_store::StoredPanoramaCamera& row) {
+  row.width = camera.pinhole.width;
+  row.height = camera.pinhole.height;
+  row.fx = camera.pinhole.fx;
+  row.fy = camera.pinhole.fy;
+  row.cx = camera.pinhole.cx;
+  row.cy = camera.pinhole.cy;
+  row.distortion = camera.distortion.coefficients();
+  row.is_equidistant = camera.distortion.isEquidistant();
+}
+
+/// Key of an image of a camera in the store.
 struct PanoramaKey {
   urban_nav_store::SessionId session;
   std::int64_t camera = 0;

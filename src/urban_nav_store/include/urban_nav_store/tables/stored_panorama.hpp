@@ -10,7 +10,7 @@
 
 namespace urban_nav_store {
 
-/// Image of one camera of a panoramic head.
+/// Image of a camera that colours the map: of a panoramic head, or another one (StoredPanoramaCamera).
 struct StoredPanorama {
   SessionId session;
   std::int64_t camera = 0;            ///< number of the camera

@@ -10,15 +10,18 @@
 
 namespace urban_nav_store {
 
-/// Calibration of a camera of a panoramic head.
+/// Calibration of a camera of a panoramic head (0 to 15), or of another camera that colours the map.
 struct StoredPanoramaCamera {
   SessionId session;
+  static constexpr std::int64_t kFirstColour = 16;  ///< number of the first camera that is not of a panoramic head
+
   std::int64_t camera = 0;  ///< number of the camera
   std::string frame;
   urban_nav_core::Pose T_base_camera;             ///< of the optical frame
   std::int64_t width = 0, height = 0;             ///< px
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  ///< px
   std::array<double, 8> distortion{};             ///< coefficients of urban_nav_core::Distortion
+  bool is_equidistant = false;                    ///< fisheye: the first four coefficients are those of its model
   static Table table() {
     Table table{"camera", 2};
     table.since = 3;
@@ -38,6 +41,8 @@ struct StoredPanoramaCamera {
     columns.real("cx", cx);
     columns.real("cy", cy);
     for (std::size_t i = 0; i < distortion.size(); ++i) columns.real(kNames[i], distortion[i]);
+    columns.since(14);
+    columns.flag("equidistant", is_equidistant);
   }
 
  private:
