@@ -13,7 +13,7 @@ namespace topics = urban_nav_ros::topics;
 
 namespace {
 
-constexpr const char* kColourFrame = "camera_color_optical_frame";
+constexpr const char* kColourFrame = "colour";
 
 sensor_msgs::CameraInfo colourInfo(const urban_nav_core::RawCamera& camera) {
   urban_nav_core::CameraInfo info;

@@ -50,7 +50,7 @@ TEST(KittiColourBag, ColourImagesOfABagAreThoseOfTheFolder) {
   }
   Console console;
   const Converted converted = convertStereoFolder(in, folder.file("out.bag"), {}, console);
-  EXPECT_EQ(converted.counts.at("/camera/color/image_raw/compressed"), style.frames);
+  EXPECT_EQ(converted.counts.at("/colour/image_raw/compressed"), style.frames);
   const ReadColours a = readColours(in), b = readColours(folder.file("out.bag"));
   ASSERT_EQ(a.info.colour_cameras.size(), 1U);
   ASSERT_EQ(b.info.colour_cameras.size(), 1U);
