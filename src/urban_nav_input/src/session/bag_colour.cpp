@@ -38,7 +38,7 @@ RecordedImage firstImage(Recording& recording, const std::string& topic) {
 }
 
 /// Returns the camera of raw or rectified images, and the pose of its optical frame in that of the raw images.
-std::pair<RawCamera, Pose> cameraOf(const CameraInfo& info, bool is_rectified, const std::string& where) {
+std::pair<RawCamera, Pose> readImageCamera(const CameraInfo& info, bool is_rectified, const std::string& where) {
   if (!is_rectified) return {rawCamera(withRawCamera(info), where), Pose()};
   RawCamera camera;
   camera.pinhole = rectifiedPinhole(info, where);
@@ -78,7 +78,7 @@ void BagColour::addCamera(Recording& recording, Role role, const ChosenTopic& to
   const urban_nav_ros::ColourImage image = first.colour();
   if (image.pixels.empty()) return leave(image.fault);
   try {
-    const auto [camera, T_optical_image] = cameraOf(*info, isRectifiedName(topic.name), where);
+    const auto [camera, T_optical_image] = readImageCamera(*info, isRectifiedName(topic.name), where);
     if (camera.pinhole.width != image.pixels.cols || camera.pinhole.height != image.pixels.rows)
       return leave("its images have " + std::to_string(image.pixels.cols) + "x" + std::to_string(image.pixels.rows) +
                    " pixels, " + where + " is of " + std::to_string(camera.pinhole.width) + "x" +
