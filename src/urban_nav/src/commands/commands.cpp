@@ -14,6 +14,7 @@
 #include "simulate/simulate_command.hpp"
 #include "topics/graph/graph.hpp"
 #include "topics/labels/labels.hpp"
+#include "topics/lo/lo.hpp"
 #include "topics/loops/loops.hpp"
 #include "topics/places/places.hpp"
 #include "topics/stereo/stereo.hpp"
@@ -24,8 +25,15 @@ namespace urban_nav {
 
 namespace {
 
+/// Odometry by stereo, or by a LiDAR without images.
+urban_nav_core::Trajectory runAnyOdometry(urban_nav_input::Source& source, const ParameterSet& parameters,
+                                          Console& console) {
+  return source.info().has_images ? runOdometry(source, parameters, console)
+                                  : runLaserOdometry(source, parameters, console);
+}
+
 Command labelsWithTeaching() {
-  Command labels = labelsCommand(runOdometry);
+  Command labels = labelsCommand(runAnyOdometry);
   labels.actions.push_back(labelsTeachAction());
   return labels;
 }

@@ -24,11 +24,11 @@ struct DriveOptions {
   OdometryRunner run_odometry;
   const ParameterSet* parameters = nullptr;  ///< of the stages
   std::vector<std::string> topics;           ///< ROLE:=NAME
-  std::string trajectory;                    ///< TUM file of base_link; empty: tf of the bag, or its stereo odometry
+  std::string trajectory;                    ///< TUM file of base_link; empty: odometry or tf of the bag
 };
 
-/// Returns T_world_base of a bag: the file, else the stereo odometry of the bag, else its tf from odom or map to
-/// base_link. Throws UserError if there is none.
+/// Returns T_world_base of a bag: the file, else the odometry of its stereo images or, without these, of its 3D LiDAR,
+/// else its tf from odom or map to base_link. Throws UserError if there is none.
 urban_nav_core::Trajectory readDriveTrajectory(const std::string& bag, const DriveOptions& options, Console& console);
 
 /// Reads the returns of the side lasers of a bag, and an image of the camera of their side every

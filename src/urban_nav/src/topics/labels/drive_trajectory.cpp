@@ -53,13 +53,17 @@ Trajectory readDriveTrajectory(const std::string& bag, const DriveOptions& optio
   source_options.topics = options.topics;
   apply(input, source_options);
   std::string reason;
-  try {
-    const auto source = urban_nav_input::openSource({bag}, source_options);
-    Trajectory trajectory = options.run_odometry(*source, *options.parameters, console);
-    if (!trajectory.empty()) return trajectory;
-    reason = "its odometry has no pose";
-  } catch (const urban_nav_core::DataError& error) {
-    reason = error.parts().found;
+  for (const bool with_sweeps : {false, true}) {
+    source_options.with_sweeps = with_sweeps;
+    try {
+      const auto source = urban_nav_input::openSource({bag}, source_options);
+      Trajectory trajectory = options.run_odometry(*source, *options.parameters, console);
+      if (!trajectory.empty()) return trajectory;
+      reason = "its odometry has no pose";
+      break;
+    } catch (const urban_nav_core::DataError& error) {
+      reason = error.parts().found;
+    }
   }
   const Trajectory trajectory = readTransforms(bag);
   if (trajectory.empty())

@@ -62,13 +62,14 @@ scene_labeler::ClassMap readClassMap(const Arguments& arguments) {
 std::vector<Option> driveCommandOptions() {
   return {{"--trajectory",
            "FILE",
-           "TUM file with poses of base_link, for each bag (default: the odometry of its stereo images, else its tf)",
+           "TUM file with poses of base_link, for each bag (default: the odometry of its stereo images or LiDAR, else "
+           "its tf)",
            false,
            true,
            {}},
           {"--topic",
            "ROLE:=NAME",
-           "topic of a bag: laser_left, laser_right, panorama1, panorama4, ... (default: guessed)",
+           "topic of a bag: laser_left, laser_right, points0, panorama1, panorama4, ... (default: guessed)",
            false,
            true,
            {}}};

@@ -127,6 +127,18 @@ void appendDrive(const std::vector<scene_labeler::DriveReturn>& returns, const s
   }
 }
 
+void appendSweep(const std::vector<urban_nav_core::LaserPoint>& returns, const scene_labeler::SweepLabels& labels,
+                 LabelledCloudFiles& files) {
+  for (std::size_t i = 0; i < returns.size(); ++i) {
+    LabelledPoint point;
+    point.p = returns[i].p.cast<double>();
+    point.reflectance = returns[i].intensity;
+    point.stamp = returns[i].stamp;
+    const std::uint32_t row = labels.answer_of_return[i];
+    files.append(row == scene_labeler::SweepLabels::kNoAnswer ? point : withLabel(point, labels.answers, row));
+  }
+}
+
 std::size_t writeSceneCloud(const std::string& base, const LabelFormats& formats, const SceneInput& input,
                             const scene_labeler::SceneLabels& labels) {
   if (!formats.ply && !formats.las) return 0;

@@ -9,6 +9,7 @@
 #include "base/command.hpp"
 #include "scene_labeler/drive/drive_scene.hpp"
 #include "scene_labeler/labelling/labeler.hpp"
+#include "scene_labeler/sweep/sweep_labeler.hpp"
 #include "topics/labels/scene_files.hpp"
 #include "urban_nav_core/io/cloud/las_writer.hpp"
 #include "urban_nav_core/io/cloud/ply_writer.hpp"
@@ -67,6 +68,9 @@ class LabelledCloudFiles {
 
 /// Appends the returns of a drive. Requires columns with reflectance and stamps.
 void appendDrive(const std::vector<scene_labeler::DriveReturn>& returns, const scene_labeler::SceneLabels& labels,
+                 LabelledCloudFiles& files);
+/// Appends the returns of a sweep. Requires columns with reflectance and stamps.
+void appendSweep(const std::vector<urban_nav_core::LaserPoint>& returns, const scene_labeler::SweepLabels& labels,
                  LabelledCloudFiles& files);
 /// Writes the points of a scene. Returns the number of points that the LAS file lacks.
 std::size_t writeSceneCloud(const std::string& base, const LabelFormats& formats, const SceneInput& input,

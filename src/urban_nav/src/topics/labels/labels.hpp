@@ -16,7 +16,8 @@ namespace urban_nav {
 /// Returns the stage that labels the points of the lasers' map with classes.
 std::unique_ptr<Stage> makeLabelsStage();
 
-/// Returns the odometry of a recording: smoothed poses of base_link; empty if no frame could be used.
+/// Returns the odometry of a recording, by its images or, without any, by its sweeps: poses of base_link; empty if none
+/// could be used.
 using OdometryRunner =
     std::function<urban_nav_core::Trajectory(urban_nav_input::Source&, const ParameterSet&, Console&)>;
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <opencv2/imgcodecs.hpp>
 
 #include "base/parameters.hpp"
@@ -9,6 +11,7 @@
 #include "topics/labels/label_model_file.hpp"
 #include "topics/labels/label_score.hpp"
 #include "topics/labels/label_sources.hpp"
+#include "topics/labels/label_sweeps.hpp"
 #include "topics/labels/label_teaching.hpp"
 #include "topics/labels/labelled_cloud_files.hpp"
 #include "topics/labels/labels_actions.hpp"
@@ -63,10 +66,45 @@ class SideLabelFiles {
   LabelledCloudFiles cloud_;
 };
 
-/// Labels a bag into files, which appear when all are complete.
-void applyToBag(const scene_labeler::LabelModel& model, const std::string& bag, const DriveOptions& options,
-                const std::filesystem::path& folder, const LabelFormats& formats, Console& console, LabelRun& run) {
-  std::filesystem::create_directories(folder);
+/// Files of the labels of the 3D LiDARs of a bag.
+class SweepLabelFiles {
+ public:
+  SweepLabelFiles(std::filesystem::path folder, const LabelFormats& formats)
+      : folder_(std::move(folder)), formats_(formats) {}
+
+  void append(const std::string& role, const std::vector<urban_nav_core::LaserPoint>& returns,
+              const scene_labeler::SweepLabels& labels) {
+    OfLidar& files = files_[role];
+    const std::string base = (folder_ / (role + "_labels")).string();
+    if (!files.cloud) {
+      files.cloud =
+          std::make_unique<LabelledCloudFiles>(base, formats_, LabelledCloudFiles::Columns{false, true, true});
+      if (formats_.csv) files.csv = std::make_unique<urban_nav_core::AtomicFile>(base + ".csv");
+      if (files.csv) files.csv->write(printSweepHeader(labels.answers.classes));
+    }
+    if (files.csv) files.csv->write(printSweepLabels(returns, labels));
+    appendSweep(returns, labels, *files.cloud);
+  }
+  void commit() {
+    for (auto& [role, files] : files_) {
+      if (files.csv) files.csv->commit();
+      files.cloud->commit();
+    }
+  }
+
+ private:
+  struct OfLidar {
+    std::unique_ptr<urban_nav_core::AtomicFile> csv;
+    std::unique_ptr<LabelledCloudFiles> cloud;
+  };
+  const std::filesystem::path folder_;
+  const LabelFormats formats_;
+  std::map<std::string, OfLidar> files_;  // by role
+};
+
+/// Labels the sides of a bag into files, which appear when all are complete.
+void applyToSides(const scene_labeler::LabelModel& model, const std::string& bag, const DriveOptions& options,
+                  const std::filesystem::path& folder, const LabelFormats& formats, Console& console, LabelRun& run) {
   SideLabelFiles left((folder / "laser_left_labels").string(), formats, model),
       right((folder / "laser_right_labels").string(), formats, model);
   labelDrive(
@@ -78,6 +116,22 @@ void applyToBag(const scene_labeler::LabelModel& model, const std::string& bag, 
       run);
   left.commit();
   right.commit();
+}
+
+/// Labels all lasers of a bag into files.
+void applyToBag(const scene_labeler::LabelModel& model, const std::string& bag, const DriveOptions& options,
+                const std::filesystem::path& folder, const LabelFormats& formats, Console& console, LabelRun& run) {
+  std::filesystem::create_directories(folder);
+  const LabelledSensors sensors = findLabelledSensors(bag, options.topics);
+  if (sensors.has_sides || !sensors.has_lidars) applyToSides(model, bag, options, folder, formats, console, run);
+  if (!sensors.has_lidars) return;
+  SweepLabelFiles files(folder, formats);
+  labelSweeps(
+      model, bag, options, console,
+      [&](const std::string& role, const std::vector<urban_nav_core::LaserPoint>& returns,
+          const scene_labeler::SweepLabels& labels) { files.append(role, returns, labels); },
+      run);
+  files.commit();
 }
 
 /// Writes the files of a labelled scene.
@@ -248,7 +302,7 @@ Command labelsApplyAction(const OdometryRunner& run_odometry) {
   action.options.push_back({"-o,--output",
                             "DIR",
                             "folder for NAME_labels.{csv,ply,las} and, for scenes with an image, NAME_labels.png; of a "
-                            "bag laser_{left,right}_labels.{csv,ply,las}",
+                            "bag laser_{left,right}_labels.{csv,ply,las}, and pointsN_labels of 3D LiDARs",
                             true,
                             false,
                             {}});

@@ -7,9 +7,8 @@
 #include <memory>
 #include <tuple>
 
+#include "commands/commands.hpp"
 #include "commands/stages.hpp"
-#include "map/map_command.hpp"
-#include "simulate/simulate_command.hpp"
 #include "urban_nav_core/io/cloud/cloud_columns.hpp"
 #include "urban_nav_core/io/csv.hpp"
 #include "urban_nav_core/io/tum.hpp"
@@ -36,8 +35,7 @@ class LidarLabels : public ::testing::Test {
   static int run(std::vector<std::string> words) {
     std::vector<const char*> argv = {"urban_nav"};
     for (const std::string& word : words) argv.push_back(word.c_str());
-    return runCommandLine({mapCommand(makeStages), simulateCommand()}, addStageTables, static_cast<int>(argv.size()),
-                          argv.data());
+    return runCommandLine(allCommands(), addStageTables, static_cast<int>(argv.size()), argv.data());
   }
 
   static std::unique_ptr<urban_nav_input::testing::TemporaryFolder> folder_;
@@ -109,6 +107,36 @@ TEST_F(LidarLabels, AreInTheSummaryTheTablesAndTheReport) {
     EXPECT_GE(objects.number(row, length), objects.number(row, width));
     EXPECT_LE(objects.integer(row, first), objects.integer(row, last));
   }
+}
+
+TEST_F(LidarLabels, ABagWithoutImagesIsLabelledSweepBySweep) {
+  ASSERT_EQ(run({"labels", "apply", "default", file("drive.bag"), "--formats", "csv,ply", "--output", file("labels")}),
+            0);
+  const urban_nav_core::CsvTable table = urban_nav_core::CsvTable::read(file("labels/points0_labels.csv"));
+  const std::size_t x = table.column("x"), y = table.column("y"), z = table.column("z"), label = table.column("label"),
+                    unsure = table.column("unsure");
+  const TrueClasses truth(file("drive.truth/cloud.ply"));
+  const urban_nav_core::Trajectory map = urban_nav_core::readTum(file("map/trajectory.tum")),
+                                   world = urban_nav_core::readTum(file("drive.truth/trajectory.tum"));
+  const urban_nav_core::Pose T_world_odom = world[world.nearest(map[0].stamp)].pose;  // odom: the first base_link
+  std::size_t answered = 0, compared = 0, right = 0;
+  for (std::size_t row = 0; row < table.rows(); row += 7) {
+    const std::int64_t found = table.integer(row, label);
+    EXPECT_EQ(found == 255, table.text(row, unsure).empty());
+    answered += found != 255 ? 1U : 0U;
+    const int surface =
+        truth.at(T_world_odom * Vector3d(table.number(row, x), table.number(row, y), table.number(row, z)));
+    if (surface == 255 || found == 255) continue;
+    ++compared;
+    right += isGround(static_cast<int>(found)) == isGround(surface) ? 1U : 0U;
+  }
+  EXPECT_GT(answered, table.rows() / 14) << "half of the returns are within reach";
+  ASSERT_GT(compared, 10000U);
+  EXPECT_GT(right, 95 * compared / 100);
+  const urban_nav_core::NumberColumns cloud =
+      urban_nav_core::readCloudColumns(file("labels/points0_labels.ply"), {"x", "label", "unsure", "stamp"});
+  for (const auto& column : cloud) ASSERT_TRUE(column.has_value());
+  EXPECT_EQ(cloud[0]->size(), table.rows());
 }
 
 }  // namespace
