@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <nav_msgs/Odometry.h>
 #include <urban_nav_msgs/RelativePose.h>
 #include <urban_nav_msgs/Trust.h>
@@ -6,11 +7,13 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <tuple>
 #include <utility>
 #include <variant>
 
+#include "health_markers.hpp"
 #include "live/live_trust.hpp"
 #include "live/nodelet_parameters.hpp"
 #include "trust_message.hpp"
@@ -95,6 +98,10 @@ class TrustStage {
                                                       [](const auto& message) { return toFrame(*message); });
     node.subscribeInput<urban_nav_msgs::RelativePose>(topics::kRelativePose, options,
                                                       [](const auto& message) { return toLiveStep(*message); });
+    marker_publisher_ = node.nh().advertise<visualization_msgs::MarkerArray>(topics::kTrustMarkers, 10, true);
+    node.subscribe<diagnostic_msgs::DiagnosticArray>(
+        topics::kDiagnostics, options,
+        [this](const diagnostic_msgs::DiagnosticArrayConstPtr& message) { show(*message); });
   }
 
   void handle(Input& input) {
@@ -115,11 +122,26 @@ class TrustStage {
   urban_nav_live::StageReport report() const { return trust_->report(); }
 
  private:
+  /// Shows the health of all nodes in rviz. Called in a thread of ROS.
+  void show(const diagnostic_msgs::DiagnosticArray& message) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const double now = message.header.stamp.toSec();
+    for (const diagnostic_msgs::DiagnosticStatus& status : message.status)
+      health_.add(status.name, status.level, status.message, now);
+    const StageHealth::Text text = health_.text(now);
+    if (text.lines == shown_) return;
+    shown_ = text.lines;
+    marker_publisher_.publish(toMarkers(text));
+  }
+
   Node& node_;
   NodeletParameters nodelet_;
   Parameters parameters_;
-  ros::Publisher publisher_;
+  ros::Publisher publisher_, marker_publisher_;
   std::unique_ptr<LiveTrust> trust_;
+  std::mutex mutex_;  // of the members below
+  StageHealth health_;
+  std::string shown_;
 };
 
 class TrustNodelet : public urban_nav_ros::StageNodelet<TrustStage> {};

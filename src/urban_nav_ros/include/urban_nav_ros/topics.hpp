@@ -110,6 +110,7 @@ constexpr const char* kGraphMarkers = "graph/markers";
 
 // urban_nav_trust.
 constexpr const char* kTrustState = "trust/state";
+constexpr const char* kTrustMarkers = "trust/markers";
 
 // The operator.
 constexpr const char* kInitialPose = "initialpose";

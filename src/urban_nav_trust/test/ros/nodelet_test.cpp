@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <urban_nav_msgs/RelativePose.h>
 #include <urban_nav_msgs/StageStatus.h>
 #include <urban_nav_msgs/Trust.h>
 #include <urban_nav_msgs/VoStatistics.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include "urban_nav_ros/pose.hpp"
 #include "urban_nav_ros/stamp.hpp"
@@ -24,6 +26,16 @@ class TrustGraph : public urban_nav_ros::testing::Listener {
   TrustGraph() : Listener("trust"), receipts_("trust") {
     keep("trust/state", states);
     keep("trust/status", statuses);
+    keep("trust/markers", markers);
+  }
+  void diagnose(int level, const std::string& message, double seconds) {
+    diagnostic_msgs::DiagnosticArray array;
+    array.header.stamp.fromSec(seconds);
+    array.status.resize(1);
+    array.status[0].name = "swf_vo: frames";
+    array.status[0].level = static_cast<signed char>(level);
+    array.status[0].message = message;
+    diagnostics_.publish(array);
   }
   void drive(int frames, double step_px) {
     for (int i = 0; i < frames; ++i) {
@@ -55,11 +67,13 @@ class TrustGraph : public urban_nav_ros::testing::Listener {
 
   std::vector<Trust> states;
   std::vector<urban_nav_msgs::StageStatus> statuses;
+  std::vector<visualization_msgs::MarkerArray> markers;
 
  private:
   const urban_nav_ros::testing::Receipts receipts_;
   ros::Publisher statistics_ = advertise<urban_nav_msgs::VoStatistics>("vo/statistics");
   ros::Publisher relative_ = advertise<urban_nav_msgs::RelativePose>("odometry/relative_pose");
+  ros::Publisher diagnostics_ = advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics");
   ros::Publisher odometry_ = advertise<nav_msgs::Odometry>("odometry");
   urban_nav_core::StampNs k_ = 100;
 };
@@ -90,6 +104,22 @@ TEST(TrustNodelet, StatesWhatAKnockToACameraIsWorth) {
   EXPECT_TRUE(graph.call("reset"));
   graph.drive(60, 0.0);
   EXPECT_TRUE(TrustGraph::until([&] { return graph.states.back().state == Trust::KNOWN; }));
+}
+
+TEST(TrustNodelet, ShowsInRvizWhatIsNotOk) {
+  TrustGraph graph;
+  ASSERT_TRUE(TrustGraph::until([&] { return graph.isConnected(); }));
+  const double now = ros::Time::now().toSec();
+  const auto shows = [&](const std::string& text, float red) {
+    if (graph.markers.empty() || graph.markers.back().markers.empty()) return false;
+    const visualization_msgs::Marker& marker = graph.markers.back().markers.back();
+    return marker.text.find(text) != std::string::npos && marker.color.r >= red &&
+           marker.header.frame_id == "base_link";
+  };
+  graph.diagnose(2, "both cameras are silent", now);
+  EXPECT_TRUE(TrustGraph::until([&] { return shows("swf_vo: frames: both cameras are silent", 0.9F); }));
+  graph.diagnose(0, "OK", now + 0.5);
+  EXPECT_TRUE(TrustGraph::until([&] { return !shows("swf_vo", 0.0F); }));
 }
 
 }  // namespace
