@@ -11,6 +11,7 @@
 #include <set>
 
 #include "base/plot.hpp"
+#include "inspect/fleet_coverage.hpp"
 #include "inspect/store_info.hpp"
 #include "urban_nav_core/geometry/dense.hpp"
 #include "urban_nav_core/io/format_number.hpp"
@@ -32,6 +33,7 @@ using urban_nav_store::Store;
 namespace {
 
 constexpr const char* kSummary = "summary.json";
+constexpr double kFleetPathStep = 1.0;  // m
 
 /// Sorted names of files below a folder.
 struct FoundFiles {
@@ -85,9 +87,12 @@ double largestSigma(Store& store, const urban_nav_store::SessionId& id) {
 void addClosures(Store& store, std::vector<FleetSession>& sessions) {
   std::map<urban_nav_store::SessionId, std::map<StampNs, urban_nav_core::Pose>> poses;
   std::map<urban_nav_store::SessionId, std::vector<double>> misses;
-  for (const FleetSession& session : sessions)
-    for (const urban_nav_core::StampedPose& pose : readTrajectory(store, session.session).T_map_base)
+  for (FleetSession& session : sessions)
+    for (const urban_nav_core::StampedPose& pose : readTrajectory(store, session.session).T_map_base) {
       poses[session.session.id][pose.stamp] = pose.pose;
+      const Eigen::Vector2d at = pose.pose.t().head<2>();
+      if (session.path.empty() || (at - session.path.back()).norm() >= kFleetPathStep) session.path.push_back(at);
+    }
   const auto find = [&](const urban_nav_store::SessionId& id) {
     return std::find_if(sessions.begin(), sessions.end(),
                         [&](const FleetSession& session) { return session.session.id == id; });
@@ -140,6 +145,7 @@ std::vector<FleetSession> readSessions(const std::string& path, const std::strin
     const StoredSession& each = info.sessions[i];
     FleetSession session;
     session.session = each.session;
+    session.day = printDay(each.session.start);
     session.store = name;
     session.map = each.map;
     for (const std::vector<std::size_t>& group : info.joined)
@@ -205,9 +211,8 @@ PageTable sessionTable(const Fleet& fleet) {
                   "Sigma: largest standard deviation of a position in the map."};
   const auto number = [](double value) { return urban_nav_core::formatNumber(value, 3); };
   for (const FleetSession& each : fleet.sessions)
-    table.rows.push_back({each.session.robot, printDay(each.session.start), printName(each), each.store,
-                          number(each.distance_m), number(urban_nav_core::secondsBetween(each.first, each.last)),
-                          each.map.substr(0, 8),
+    table.rows.push_back({each.session.robot, each.day, printName(each), each.store, number(each.distance_m),
+                          number(urban_nav_core::secondsBetween(each.first, each.last)), each.map.substr(0, 8),
                           std::to_string(each.accepted) + " of " + std::to_string(each.candidates),
                           each.accepted > 0 ? number(each.disagreement_m) : "", number(each.sigma_m),
                           number(100.0 * each.good_share), reasonApart(each)});
@@ -215,10 +220,10 @@ PageTable sessionTable(const Fleet& fleet) {
 }
 
 /// Returns the distance driven by robot and day, m.
-PageTable coverageTable(const Fleet& fleet) {
+PageTable daysTable(const Fleet& fleet) {
   std::map<std::pair<std::string, std::string>, std::pair<std::size_t, double>> driven;
   for (const FleetSession& each : fleet.sessions) {
-    auto& [count, metres] = driven[{each.session.robot, printDay(each.session.start)}];
+    auto& [count, metres] = driven[{each.session.robot, each.day}];
     ++count;
     metres += each.distance_m;
   }
@@ -291,7 +296,7 @@ Page fleetPage(const Fleet& fleet) {
                              fleet.unreadable.front().second});
   if (!fleet.drifts.empty())
     page.verdicts.push_back({Grade::Fair, "Calibrations differ between sessions of one robot", fleet.drifts.front()});
-  Section section{"sessions", "Sessions", "", {}, {}, {sessionTable(fleet), coverageTable(fleet)}};
+  Section section{"sessions", "Sessions", "", {}, {}, {sessionTable(fleet), daysTable(fleet)}};
   if (!fleet.drifts.empty()) section.tables.push_back(listTable("Calibrations that differ", "session", fleet.drifts));
   if (!fleet.releases.empty()) section.tables.push_back(listTable("Releases", "file", fleet.releases));
   const auto addReasons = [&](const char* title, const char* head, const auto& named) {
@@ -302,6 +307,7 @@ Page fleetPage(const Fleet& fleet) {
   addReasons("Recordings that could not be mapped", "folder", fleet.failed);
   addReasons("Stores that cannot be read", "file", fleet.unreadable);
   page.sections.push_back(std::move(section));
+  if (!fleet.sessions.empty()) page.sections.push_back(coverageSection(fleet));
   return page;
 }
 
@@ -314,7 +320,7 @@ Json toJson(const Fleet& fleet) {
                                   {"robot", each.session.robot},
                                   {"store", each.store},
                                   {"start_ns", each.session.start},
-                                  {"day", printDay(each.session.start)},
+                                  {"day", each.day},
                                   {"map", each.map},
                                   {"state", each.in_map > 1 ? "joined" : "apart"},
                                   {"reason", reasonApart(each)},
@@ -329,6 +335,7 @@ Json toJson(const Fleet& fleet) {
     Json& rows = json[key] = Json::array();
     for (const std::string& line : lines) rows.append(line);
   };
+  json["maps"] = coverageJson(fleet);
   list("releases", fleet.releases);
   list("calibrations", fleet.drifts);
   Json& unreadable = json["unreadable"] = Json::array();

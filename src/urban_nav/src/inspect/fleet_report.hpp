@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,10 @@ struct FleetSession {
   double sigma_m = 0.0;      ///< largest standard deviation of a position in its map
   std::size_t accepted = 0;  ///< closures with other sessions
   std::size_t candidates = 0;
-  double disagreement_m = 0.0;  ///< median residual of accepted closures with other sessions
-  std::string camera;           ///< its calibration (calibrationFingerprint); empty: unknown
+  double disagreement_m = 0.0;        ///< median residual of accepted closures with other sessions
+  std::string day;                    ///< of its start, UTC: "2008-11-03"
+  std::vector<Eigen::Vector2d> path;  ///< positions in its map, m, about 1 m apart
+  std::string camera;                 ///< its calibration (calibrationFingerprint); empty: unknown
 };
 
 /// Sessions and releases in the stores below a folder.

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "inspect/fleet_coverage.hpp"
 #include "inspect/fleet_report.hpp"
 #include "join/release_run.hpp"
 #include "joined_days.hpp"
@@ -152,6 +153,16 @@ TEST_F(JoinedDays, AFolderOfStoresIsReportedOnOnePage) {
     EXPECT_NE(readFile(file(output)).find("broken.bag: no message can be read"), std::string::npos) << output;
   for (const char* word : {"\"joined\"", "\"apart\"", "robot/days.db", "damaged.db"})
     EXPECT_NE(readFile(file("fleet.json")).find(word), std::string::npos) << word;
+  const std::vector<MapCoverage> coverage = computeCoverage(read);
+  ASSERT_FALSE(coverage.empty());
+  EXPECT_EQ(coverage.front().sessions, 2U);
+  EXPECT_EQ(coverage.front().days, 2U);
+  EXPECT_GT(coverage.front().area_m2, 100.0);
+  EXPECT_GT(coverage.front().repeated_m2, 0.0) << "two drives at one place";
+  EXPECT_LE(coverage.front().repeated_m2 + coverage.front().newest_m2, coverage.front().area_m2);
+  for (const char* word : {"\"maps\"", "\"area_m2\"", "\"repeated_m2\""})
+    EXPECT_NE(readFile(file("fleet.json")).find(word), std::string::npos) << word;
+  EXPECT_NE(readFile(file("fleet.html")).find("new on the last day"), std::string::npos);
   EXPECT_NE(readFile(file("fleet.html")).find("Robots and days"), std::string::npos);
   EXPECT_EQ(runWords({"info", file("fleet.json"), "--report", file("none.html")}), 2) << "no folder";
 }

@@ -11,25 +11,11 @@ namespace urban_nav {
 
 namespace {
 
-using Cell = std::pair<int, int>;
+using Cell = GridCell;
 using Corner = std::pair<int, int>;
 
 /// Edges of the outline by their first corner, with the area on their left. At most two begin at a corner.
 using Edges = std::multimap<Corner, Corner>;
-
-std::set<Cell> cellsAround(const std::vector<Eigen::Vector2d>& path, double reach, double cell) {
-  const auto number = [cell](double value) { return static_cast<int>(std::floor(value / cell)); };
-  std::set<Cell> cells;
-  const Eigen::Vector2d* last = nullptr;
-  for (const Eigen::Vector2d& p : path) {
-    if (last != nullptr && (p - *last).norm() < 0.25 * cell) continue;
-    last = &p;
-    for (int x = number(p.x() - reach); x <= number(p.x() + reach); ++x)
-      for (int y = number(p.y() - reach); y <= number(p.y() + reach); ++y)
-        if ((Eigen::Vector2d(x + 0.5, y + 0.5) * cell - p).norm() <= reach) cells.insert({x, y});
-  }
-  return cells;
-}
 
 Edges outlineEdges(const std::set<Cell>& cells) {
   Edges edges;
@@ -126,6 +112,20 @@ Geometry::Ring toRing(const std::vector<Corner>& corners, double cell) {
 }
 
 }  // namespace
+
+std::set<GridCell> cellsAround(const std::vector<Eigen::Vector2d>& path, double reach, double cell) {
+  const auto number = [cell](double value) { return static_cast<int>(std::floor(value / cell)); };
+  std::set<GridCell> cells;
+  const Eigen::Vector2d* last = nullptr;
+  for (const Eigen::Vector2d& p : path) {
+    if (last != nullptr && (p - *last).norm() < 0.25 * cell) continue;
+    last = &p;
+    for (int x = number(p.x() - reach); x <= number(p.x() + reach); ++x)
+      for (int y = number(p.y() - reach); y <= number(p.y() + reach); ++y)
+        if ((Eigen::Vector2d(x + 0.5, y + 0.5) * cell - p).norm() <= reach) cells.insert({x, y});
+  }
+  return cells;
+}
 
 Coverage coverageAround(const std::vector<Eigen::Vector2d>& path, double reach, double cell) {
   const std::set<Cell> cells = cellsAround(path, reach, cell);

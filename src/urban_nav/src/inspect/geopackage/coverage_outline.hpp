@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "inspect/geopackage/geopackage_file.hpp"
 
 namespace urban_nav {
+
+/// Cell of a grid of a given width, by its lower corner in units of that width.
+using GridCell = std::pair<int, int>;
+
+/// Returns the cells of width `cell` whose centres are within `reach` of a path, m.
+std::set<GridCell> cellsAround(const std::vector<Eigen::Vector2d>& path, double reach, double cell);
 
 /// An area as polygons with their holes.
 struct Coverage {
