@@ -100,7 +100,7 @@ class TrustStage {
                                                       [](const auto& message) { return toLiveStep(*message); });
     marker_publisher_ = node.nh().advertise<visualization_msgs::MarkerArray>(topics::kTrustMarkers, 10, true);
     node.subscribe<diagnostic_msgs::DiagnosticArray>(
-        topics::kDiagnostics, options,
+        topics::results::kDiagnostics, options,
         [this](const diagnostic_msgs::DiagnosticArrayConstPtr& message) { show(*message); });
   }
 
