@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tiffio.h>
+#undef COMPRESSION_NONE  // also a constant of rosbag
 
 #include <cmath>
 #include <cstdint>
