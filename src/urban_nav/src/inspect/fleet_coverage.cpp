@@ -15,7 +15,7 @@ namespace urban_nav {
 
 namespace {
 
-constexpr double kFleetReach = 5.0, kFleetCell = 2.0;  // m: as the layer of the GeoPackage, on a coarser grid
+constexpr double kFleetReach = 5.0, kFleetCell = 1.0;  // m: as the layer of the GeoPackage
 constexpr std::size_t kDrawnMaps = 4;
 constexpr std::array<const char*, 4> kRobotColours = {"a", "b", "c", "d"};
 

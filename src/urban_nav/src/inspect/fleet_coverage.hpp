@@ -9,7 +9,7 @@
 
 namespace urban_nav {
 
-/// Area that the sessions of one map have seen: within 5 m of their paths, on a grid of 2 m.
+/// Area that the sessions of one map have seen: within 5 m of their paths, on a grid of 1 m.
 struct MapCoverage {
   std::string store, map;  ///< of FleetSession
   std::size_t sessions = 0, days = 0;

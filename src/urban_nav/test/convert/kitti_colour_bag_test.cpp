@@ -27,9 +27,15 @@ ReadColours readColours(const std::string& input) {
   options.with_colour = true;
   const auto source = urban_nav_input::openSource({input}, options);
   ReadColours read;
-  while (auto item = source->next())
-    for (ColourInput& image : item->colours) read.images.push_back(std::move(image));
-  for (ColourInput& image : source->colours()) read.images.push_back(std::move(image));
+  const auto take = [&read](const std::vector<ColourInput>& images) {
+    read.images.insert(read.images.end(), images.begin(), images.end());
+  };
+  while (const auto item = source->next()) {
+    if (item->bag_end) take(item->bag_end->colours);
+    take(item->colours);
+  }
+  if (source->bagEnd()) take(source->bagEnd()->colours);
+  take(source->colours());
   read.info = source->info();
   return read;
 }
