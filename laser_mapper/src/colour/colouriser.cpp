@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "colour/depth_map_pool.hpp"
 #include "colour/image_gains.hpp"
 #include "colour/view_projection.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
@@ -95,21 +96,23 @@ float viewWeight(const MapPoint& point, const ImagePoint& at, const ViewProjecti
 
 }  // namespace
 
-struct Colouriser::ViewData {
-  explicit ViewData(const ColourView& view) : projection(view), depth(view.camera.pinhole) {}
-  ViewProjection projection;
-  urban_nav_registration::DepthMap depth;
+struct Colouriser::Depths {
+  DepthMapPool pool;
 };
 
-Colouriser::Colouriser(std::vector<ColourView> views, ImageLoader load, double voxel, std::size_t cached_images)
+Colouriser::Colouriser(std::vector<ColourView> views, ImageLoader load, double voxel, ColourMemory memory)
     : views_(std::move(views)),
       load_(std::move(load)),
       voxel_(voxel),
-      cached_images_(std::max<std::size_t>(1, cached_images)),
+      cached_images_(std::max<std::size_t>(1, memory.cached_images)),
+      depths_(std::make_unique<Depths>(Depths{DepthMapPool(memory.depth_bytes, std::move(memory.folder))})),
       samples_(kMaxSamples),
       gains_(views_.size(), {1.0F, 1.0F, 1.0F}) {
-  data_.reserve(views_.size());
-  for (const ColourView& view : views_) data_.emplace_back(view);
+  projections_.reserve(views_.size());
+  for (const ColourView& view : views_) {
+    projections_.emplace_back(view);
+    depths_->pool.add(view.camera.pinhole);
+  }
 }
 
 Colouriser::~Colouriser() = default;
@@ -121,17 +124,18 @@ std::vector<std::size_t> Colouriser::viewsNear(const std::vector<MapPoint>& poin
     high = high.cwiseMax(point.p.cast<double>());
   }
   std::vector<std::size_t> near;
-  for (std::size_t view = 0; view < data_.size(); ++view)
-    if (data_[view].projection.mayObserve(low, high)) near.push_back(view);
+  for (std::size_t view = 0; view < projections_.size(); ++view)
+    if (projections_[view].mayObserve(low, high)) near.push_back(view);
   return near;
 }
 
 void Colouriser::addSurface(const std::vector<MapPoint>& points) {
   const std::vector<std::size_t> near = viewsNear(points);
+  depths_->pool.hold(near, DepthMapPool::Access::Write);
   urban_nav_core::forEach(near.size(), 1, [&](std::size_t i) {
-    ViewData& view = data_[near[i]];
+    urban_nav_registration::DepthMap& depth = depths_->pool.at(near[i]);
     for (const MapPoint& point : points)
-      if (const auto at = view.projection.project(point.p)) view.depth.add(*at, voxel_);
+      if (const auto at = projections_[near[i]].project(point.p)) depth.add(*at, voxel_);
   });
   for (const MapPoint& point : points)
     if (point.normal.squaredNorm() > 0.5F) samples_.add(point);
@@ -140,14 +144,16 @@ void Colouriser::addSurface(const std::vector<MapPoint>& points) {
 void Colouriser::equalise() {
   const std::vector<MapPoint>& samples = samples_.items();
   std::vector<ColourObservation> observations;
-  for (std::size_t view = 0; view < data_.size(); ++view) {
+  for (std::size_t view = 0; view < projections_.size(); ++view) {
     const auto picture = image(view);
     if (picture->bgr.empty()) continue;
-    const ViewData& data = data_[view];
+    depths_->pool.hold({view}, DepthMapPool::Access::Read);
+    const ViewProjection& projection = projections_[view];
+    const urban_nav_registration::DepthMap& depth = depths_->pool.at(view);
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      const auto at = data.projection.project(samples[i].p);
-      if (!at || !data.depth.isVisible(*at, data.projection.toCamera(samples[i]))) continue;
-      const Colour colour = patchColour(*picture, *at, 2.0 * voxel_, data.projection.focal());
+      const auto at = projection.project(samples[i].p);
+      if (!at || !depth.isVisible(*at, projection.toCamera(samples[i]))) continue;
+      const Colour colour = patchColour(*picture, *at, 2.0 * voxel_, projection.focal());
       if (isUsable(colour)) observations.push_back({view, i, colour});
     }
   }
@@ -176,12 +182,13 @@ std::size_t Colouriser::colour(std::vector<MapPoint>& points) {
   for (const std::size_t view : viewsNear(points)) {
     const auto picture = image(view);
     if (picture->bgr.empty()) continue;
-    const ViewData& data = data_[view];
+    depths_->pool.hold({view}, DepthMapPool::Access::Read);
+    const ViewProjection& projection = projections_[view];
+    const urban_nav_registration::DepthMap& depth = depths_->pool.at(view);
     urban_nav_core::forEach(points.size(), kPointGrain, [&](std::size_t i) {
-      const auto at = data.projection.project(points[i].p);
-      if (!at || !data.depth.isVisible(*at, data.projection.toCamera(points[i]))) return;
-      PointView seen{viewWeight(points[i], *at, data.projection),
-                     patchColour(*picture, *at, voxel_, data.projection.focal())};
+      const auto at = projection.project(points[i].p);
+      if (!at || !depth.isVisible(*at, projection.toCamera(points[i]))) return;
+      PointView seen{viewWeight(points[i], *at, projection), patchColour(*picture, *at, voxel_, projection.focal())};
       for (std::size_t c = 0; c < 3; ++c) seen.colour[c] *= gains_[view][c];
       best[i].add(seen);
     });

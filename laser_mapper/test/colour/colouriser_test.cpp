@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "colour/depth_map_pool.hpp"
 #include "urban_nav_core/parallel/for_each.hpp"
 
 namespace laser_mapper {
@@ -53,7 +55,7 @@ TEST(Colouriser, ExposuresAreEqualised) {
     return uniform(static_cast<std::uint8_t>(40.0 * gain), static_cast<std::uint8_t>(90.0 * gain),
                    static_cast<std::uint8_t>(140.0 * gain));
   };
-  Colouriser colouriser(views, load, 0.05, 2);
+  Colouriser colouriser(views, load, 0.05, ColourMemory{2});
   std::vector<MapPoint> wall = wallAt(3.0F, -1.0F, 1.5F);
   colouriser.addSurface(wall);
   colouriser.equalise();
@@ -69,7 +71,7 @@ TEST(Colouriser, ExposuresAreEqualised) {
 
 TEST(Colouriser, WhatIsHiddenIsNotColoured) {
   Colouriser colouriser(
-      {viewFrom(0.0, 0)}, [](std::size_t) { return uniform(10, 20, 200); }, 0.05, 1);
+      {viewFrom(0.0, 0)}, [](std::size_t) { return uniform(10, 20, 200); }, 0.05, ColourMemory{1});
   std::vector<MapPoint> far = wallAt(6.0F, -1.0F, 1.0F), near = wallAt(2.0F, -0.2F, 0.2F);
   colouriser.addSurface(far);
   colouriser.addSurface(near);
@@ -102,7 +104,7 @@ std::vector<MapPoint> groundFrom(float near, float far) {
 
 TEST(Colouriser, GroundAtAGrazingAngleDoesNotOccludeItself) {
   Colouriser colouriser(
-      {viewFrom(0.0, 0)}, [](std::size_t) { return uniform(10, 20, 200); }, 0.05, 1);
+      {viewFrom(0.0, 0)}, [](std::size_t) { return uniform(10, 20, 200); }, 0.05, ColourMemory{1});
   std::vector<MapPoint> ground = groundFrom(3.0F, 16.0F);
   colouriser.addSurface(ground);
   colouriser.equalise();
@@ -111,7 +113,7 @@ TEST(Colouriser, GroundAtAGrazingAngleDoesNotOccludeItself) {
 
 TEST(Colouriser, ObjectsOccludeTheGround) {
   Colouriser colouriser(
-      {viewFrom(0.0, 0)}, [](std::size_t) { return uniform(10, 20, 200); }, 0.05, 1);
+      {viewFrom(0.0, 0)}, [](std::size_t) { return uniform(10, 20, 200); }, 0.05, ColourMemory{1});
   std::vector<MapPoint> ground = groundFrom(3.0F, 16.0F), box;
   for (float y = 0.5F; y < 1.5F; y += 0.05F)  // 1 m high, at z = 8
     for (float x = -2.0F; x < 2.0F; x += 0.05F) {
@@ -138,7 +140,7 @@ TEST(Colouriser, ImagesThatCannotBeReadAreLeftOut) {
   const auto load = [](std::size_t image) {
     return image == 0 ? Picture() : image == 1 ? Picture{3, 1, std::vector<std::uint8_t>(9, 0)} : uniform(1, 200, 3);
   };
-  Colouriser colouriser({viewFrom(0.0, 0), viewFrom(0.1, 1), viewFrom(0.2, 2)}, load, 0.05, 4);
+  Colouriser colouriser({viewFrom(0.0, 0), viewFrom(0.1, 1), viewFrom(0.2, 2)}, load, 0.05, ColourMemory{4});
   std::vector<MapPoint> wall = wallAt(3.0F, -0.5F, 0.5F);
   colouriser.addSurface(wall);
   colouriser.equalise();
@@ -172,6 +174,56 @@ TEST(Colouriser, DoesNotDependOnTheNumberOfThreadsNorOnTheMemoryForImages) {
       EXPECT_EQ(results[0][i].red, result[i].red);
       EXPECT_EQ(results[0][i].blue, result[i].blue);
     }
+}
+
+TEST(Colouriser, TheResultDoesNotDependOnTheMemoryForDepthMaps) {
+  std::vector<ColourView> views;
+  for (std::size_t i = 0; i < 40; ++i) views.push_back(viewFrom(0.7 * static_cast<double>(i), i));
+  const auto load = [](std::size_t image) {
+    return uniform(static_cast<std::uint8_t>(30 + image), 90, static_cast<std::uint8_t>(200 - 2 * image));
+  };
+  const auto colour = [&](std::size_t depth_bytes) {
+    Colouriser colouriser(views, load, 0.05, {4, depth_bytes, {}});
+    std::vector<std::vector<MapPoint>> tiles;
+    for (float x = -2.0F; x < 30.0F; x += 4.0F) {
+      tiles.push_back(wallAt(6.0F, x, x + 4.0F));
+      tiles.push_back(wallAt(3.0F, x, x + 0.5F));  // occludes a part of it
+    }
+    for (const std::vector<MapPoint>& tile : tiles) colouriser.addSurface(tile);
+    colouriser.equalise();
+    std::vector<int> colours;
+    for (std::vector<MapPoint>& tile : tiles) {
+      colouriser.colour(tile);
+      for (const MapPoint& point : tile) colours.insert(colours.end(), {point.red, point.green, point.blue});
+    }
+    return colours;
+  };
+  const std::vector<int> all_in_memory = colour(256U << 20U);
+  EXPECT_TRUE(colour(0) == all_in_memory);
+  EXPECT_GT(std::count(all_in_memory.begin(), all_in_memory.end(), 90), 1000);
+}
+
+TEST(DepthMapPool, HoldsWhatIsAskedForAndKeepsTheOthersInAFile) {
+  const urban_nav_core::Pinhole camera{200.0, 200.0, 160.0, 120.0, kTestWidth, kTestHeight};
+  const std::size_t bytes = sizeof(float) * kTestWidth * kTestHeight / 16;
+  DepthMapPool pool(2 * bytes, "/no/such/folder");
+  for (int i = 0; i < 6; ++i) pool.add(camera);
+  for (std::size_t i = 0; i < 6; ++i) {
+    pool.hold({i}, DepthMapPool::Access::Write);
+    pool.at(i).add({100.0, 100.0, 1.0 + static_cast<double>(i)}, 0.05);
+    EXPECT_LE(pool.bytesInMemory(), 2 * bytes);
+  }
+  for (const std::size_t i : {0U, 3U, 5U, 1U}) {
+    pool.hold({i}, DepthMapPool::Access::Read);
+    const double depth = 1.0 + static_cast<double>(i);
+    EXPECT_TRUE(pool.at(i).isVisible({100.0, 100.0, depth}, {{0.0, 0.0, depth}, {0.0, 0.0, 0.0}}));
+    EXPECT_FALSE(pool.at(i).isVisible({100.0, 100.0, depth + 1.0}, {{0.0, 0.0, depth + 1.0}, {0.0, 0.0, 0.0}}));
+    EXPECT_TRUE(pool.at(i).isVisible({20.0, 20.0, 50.0}, {{0.0, 0.0, 50.0}, {0.0, 0.0, 0.0}})) << "nothing is there";
+  }
+  pool.hold({0, 1, 2, 3, 4, 5}, DepthMapPool::Access::Read);
+  EXPECT_EQ(pool.bytesInMemory(), 6 * bytes) << "more than the budget, if asked for at once";
+  pool.hold({2}, DepthMapPool::Access::Read);
+  EXPECT_LE(pool.bytesInMemory(), 2 * bytes);
 }
 
 }  // namespace

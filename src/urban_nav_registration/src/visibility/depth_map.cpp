@@ -26,6 +26,11 @@ DepthMap::DepthMap(const urban_nav_core::Pinhole& camera, const DepthTolerance& 
       depth_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
              std::numeric_limits<float>::infinity()) {}
 
+void DepthMap::setCells(std::vector<float> cells) {
+  if (cells.empty()) cells.assign(size(), std::numeric_limits<float>::infinity());
+  depth_ = std::move(cells);
+}
+
 void DepthMap::add(const ImagePoint& at, double edge) {
   const int size =
       std::clamp(static_cast<int>(std::ceil(edge * focal_.x() / (kReduction * at.depth))), 1, kLargestPoint);

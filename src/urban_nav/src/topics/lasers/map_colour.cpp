@@ -2,6 +2,7 @@
 #include "topics/lasers/map_colour.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 
@@ -32,6 +33,7 @@ using urban_nav_store::TileColours;
 namespace {
 
 constexpr StampNs kLongestViewGap = 500'000'000;
+constexpr double kDepthShare = 0.3;  // of memory_mb: depth maps of the views; the rest: decoded images
 
 struct SessionViews {
   std::vector<laser_mapper::MountedView> views;
@@ -70,6 +72,13 @@ void addViews(urban_nav_store::Store& store, const MappedSession& session, const
   });
 }
 
+SessionViews findViews(urban_nav_store::Store& store, const std::vector<MappedSession>& sessions) {
+  SessionViews found;
+  for (const MappedSession& session : sessions)
+    addViews(store, session, urban_nav_registration::panoramaCorrection(store, session.id), ViewKind::All, found);
+  return found;
+}
+
 /// Returns a digest of the images, their poses and cameras, and of the rendered chunks of a map.
 std::string digestColours(urban_nav_store::Store& store, const std::vector<MappedSession>& sessions,
                           const SessionViews& made, double voxel) {
@@ -104,8 +113,8 @@ std::string digestColours(urban_nav_store::Store& store, const std::vector<Mappe
   return urban_nav_store::sha256(bytes);
 }
 
-std::unique_ptr<laser_mapper::Colouriser> makeColouriser(urban_nav_store::Store& store, const SessionViews& made,
-                                                         double voxel, double memory_mb) {
+std::unique_ptr<laser_mapper::Colouriser> makeViewColouriser(urban_nav_store::Store& store, const SessionViews& made,
+                                                             double voxel, double memory_mb) {
   std::vector<ColourView> views;
   for (std::size_t i = 0; i < made.views.size(); ++i) {
     const laser_mapper::MountedView& view = made.views[i];
@@ -117,8 +126,11 @@ std::unique_ptr<laser_mapper::Colouriser> makeColouriser(urban_nav_store::Store&
   const auto load = [&store, images = made.images](std::size_t image) {
     return urban_nav_registration::loadPanorama(store, images[image]);
   };
-  return std::make_unique<laser_mapper::Colouriser>(std::move(views), load, voxel,
-                                                    static_cast<std::size_t>(std::max(8.0, memory_mb / image_mb)));
+  laser_mapper::ColourMemory memory;
+  memory.cached_images = static_cast<std::size_t>(std::max(8.0, (1.0 - kDepthShare) * memory_mb / image_mb));
+  memory.depth_bytes = static_cast<std::size_t>(1e6 * kDepthShare * memory_mb);
+  memory.folder = std::filesystem::path(store.path()).parent_path().string();
+  return std::make_unique<laser_mapper::Colouriser>(std::move(views), load, voxel, std::move(memory));
 }
 
 constexpr std::size_t kArrays = 4;  // of TileColours::data
@@ -156,19 +168,24 @@ std::size_t unpackColours(const TileColours& row, const std::string& path, std::
 
 }  // namespace
 
+std::unique_ptr<laser_mapper::Colouriser> makeColouriser(urban_nav_store::Store& store,
+                                                         const std::vector<MappedSession>& sessions, double voxel,
+                                                         double memory_mb) {
+  const SessionViews found = findViews(store, sessions);
+  return found.views.empty() ? nullptr : makeViewColouriser(store, found, voxel, memory_mb);
+}
+
 MapColours::MapColours(urban_nav_store::Store& store, const laser_mapper::LaserMap& map,
                        const std::vector<MappedSession>& sessions, double memory_mb, bool keep)
     : store_(store), sessions_(sessions), keep_(keep) {
-  SessionViews made;
-  for (const MappedSession& session : sessions)
-    addViews(store, session, urban_nav_registration::panoramaCorrection(store, session.id), ViewKind::All, made);
+  const SessionViews made = findViews(store, sessions);
   views_ = made.views.size();
   if (views_ == 0) return;
   const double voxel = map.parameters().voxel;
   digest_ = digestColours(store, sessions, made, voxel);
   if (isStored()) return;
   if (keep_) removeStored();
-  colouriser_ = makeColouriser(store, made, voxel, memory_mb);
+  colouriser_ = makeViewColouriser(store, made, voxel, memory_mb);
   map.forEachTile(
       [&](const laser_mapper::Tile&, const std::vector<MapPoint>& points) { colouriser_->addSurface(points); });
   colouriser_->equalise();

@@ -48,6 +48,11 @@ class MapColours {
   std::unique_ptr<laser_mapper::Colouriser> colouriser_;  // null: the colours are stored, or there are no images
 };
 
+/// Returns the colouriser of stored images of sessions; null without any. `memory_mb`: of images and depth maps.
+std::unique_ptr<laser_mapper::Colouriser> makeColouriser(urban_nav_store::Store& store,
+                                                         const std::vector<laser_mapper::MappedSession>& sessions,
+                                                         double voxel, double memory_mb);
+
 /// Calibrates the panoramic head of a session by the colours of its map; nullopt if there are no panoramas within the
 /// time of the trajectory. `odometry`: see laser_mapper::ViewCalibrator.
 std::optional<laser_mapper::ViewCalibration> calibratePanoramas(urban_nav_store::Store& store,

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "urban_nav_core/camera/pinhole.hpp"
@@ -35,6 +37,13 @@ class DepthMap {
   /// Returns whether a point is not occluded, neither along its line of sight nor by much nearer points in adjacent
   /// cells. Points in the plane of the surface, such as the ground before it, do not occlude it.
   bool isVisible(const ImagePoint& at, const ViewedPoint& surface) const;
+
+  /// Returns the number of cells.
+  std::size_t size() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
+  /// Moves the depths out, to keep them elsewhere. The map must not be used before setCells().
+  std::vector<float> takeCells() { return std::move(depth_); }
+  /// Sets depths that takeCells() has returned; empty: no point is drawn.
+  void setCells(std::vector<float> cells);
 
  private:
   bool isOnPlane(const ImagePoint& at, const ViewedPoint& surface, int u, int v, double front) const;
