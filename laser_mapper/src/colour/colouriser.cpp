@@ -97,6 +97,7 @@ float viewWeight(const MapPoint& point, const ImagePoint& at, const ViewProjecti
 }  // namespace
 
 struct Colouriser::Depths {
+  Depths(std::size_t budget, std::string folder) : pool(budget, std::move(folder)) {}
   DepthMapPool pool;
 };
 
@@ -105,7 +106,7 @@ Colouriser::Colouriser(std::vector<ColourView> views, ImageLoader load, double v
       load_(std::move(load)),
       voxel_(voxel),
       cached_images_(std::max<std::size_t>(1, memory.cached_images)),
-      depths_(std::make_unique<Depths>(Depths{DepthMapPool(memory.depth_bytes, std::move(memory.folder))})),
+      depths_(std::make_unique<Depths>(memory.depth_bytes, std::move(memory.folder))),
       samples_(kMaxSamples),
       gains_(views_.size(), {1.0F, 1.0F, 1.0F}) {
   projections_.reserve(views_.size());

@@ -162,7 +162,7 @@ TEST(Colouriser, DoesNotDependOnTheNumberOfThreadsNorOnTheMemoryForImages) {
             picture.bgr[i] = static_cast<std::uint8_t>(30 + (i / 7 + 13 * image) % 180);
           return picture;
         },
-        0.05, static_cast<std::size_t>(cached_images));
+        0.05, ColourMemory{static_cast<std::size_t>(cached_images)});
     std::vector<MapPoint> wall = wallAt(3.0F, -1.0F, 1.5F);
     colouriser.addSurface(wall);
     colouriser.equalise();
