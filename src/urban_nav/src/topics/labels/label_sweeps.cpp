@@ -15,6 +15,7 @@
 #include "urban_nav_input/recording/recording.hpp"
 #include "urban_nav_input/session/input_parameters.hpp"
 #include "urban_nav_input/session/open.hpp"
+#include "urban_nav_input/session/planar_clouds.hpp"
 
 namespace urban_nav {
 
@@ -75,7 +76,8 @@ class SweepRun {
 LabelledSensors findLabelledSensors(const std::string& bag, const std::vector<std::string>& topics) {
   using urban_nav_input::Role;
   urban_nav_input::Recording recording(bag);
-  const urban_nav_input::BagTopics chosen = urban_nav_input::chooseTopics(recording.topicTypes(), topics);
+  urban_nav_input::BagTopics chosen = urban_nav_input::chooseTopics(recording.topicTypes(), topics);
+  const urban_nav_input::PlanarClouds planar(recording, {}, topics, chosen);  // which have the roles of scans then
   return {chosen.find(Role::LaserLeft) || chosen.find(Role::LaserRight), chosen.find(Role::Points0).has_value()};
 }
 
